@@ -265,7 +265,9 @@ def trail(follow: Any, seed: int = 0) -> ControlRequestor:
             "It turns too little, so it runs off where the trail bends. Turn more, or drive "
             "more slowly."
         ),
-        "too-slow": _("It stays on the trail, and is too slow: the time was up before it was there."),
+        "too-slow": _(
+            "It stays on the trail, and is too slow: the time was up before it was there."
+        ),
         "stands": _("It does not move on. While no eye sees the trail, drive straight on."),
     },
 )
