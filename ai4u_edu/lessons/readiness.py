@@ -31,8 +31,7 @@ def ready() -> None:
         if missing:
             lines.append(
                 _(
-                    "For {what}, {modules} must be installed too: "
-                    '`pip install "ai4u-edu[{extra}]"`.',
+                    'Install {modules} for {what}: `pip install "ai4u-edu[{extra}]"`.',
                     what=FOR[extra],
                     modules=", ".join(missing),
                     extra=extra,

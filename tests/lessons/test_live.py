@@ -203,7 +203,7 @@ def test_what_is_missing_is_said(
     hidden = {"torch", "onnx"}
     monkeypatch.setattr(readiness, "find_spec", lambda name: None if name in hidden else name)
     ready()
-    assert "torch and onnx must be installed too" in capsys.readouterr().out
+    assert "Install torch, onnx for the lessons about learning" in capsys.readouterr().out
 
 
 def test_a_world_ends_when_its_page_is_gone_and_not_before_there_was_one() -> None:
