@@ -7,7 +7,6 @@ import pytest
 
 from ai4u_edu.base.errors import NameNotFoundError, SetupError
 from ai4u_edu.learn.envs import SceneEnv, SceneVectorEnv, parallel_env
-from ai4u_edu.learn.envs.sb3 import SceneVecEnv
 
 
 def gravity(env: Any) -> float:
@@ -66,7 +65,10 @@ def test_all_agents_of_a_parallel_environment_get_them() -> None:
     assert env.sim.world["blue"].description.mass != 5.0
 
 
+@pytest.mark.needs("train")
 def test_options_of_stable_baselines_count_for_the_next_reset() -> None:
+    from ai4u_edu.learn.envs.sb3 import SceneVecEnv
+
     envs = SceneVecEnv("box_chase", 2)
     envs.set_options([{"gravity": 1.0}, {}])
     envs.reset()
