@@ -232,11 +232,11 @@ def problems_of(message: Message) -> Iterator[str]:
 def report() -> None:
     """Print how many texts and words each catalogue has, and how many are translated."""
     print("| language | domain | texts | words | translated |\n|---|---|---|---|---|")
-    for language in TRANSLATED:
-        for domain in domains():
+    for domain in domains():
+        texts = {text for text, _ in domain.texts}
+        words = sum(len(_first(text).split()) for text in texts)
+        for language in TRANSLATED:
             known = {message.id for message in translated(read(language, domain.name))}
-            texts = {text for text, _ in domain.texts}
-            words = sum(len(_first(text).split()) for text in texts)
             done = f"{100 * len(texts & known) // len(texts)}%" if texts else "-"
             print(f"| {language} | {domain.name} | {len(texts)} | {words} | {done} |")
 

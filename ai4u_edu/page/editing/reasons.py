@@ -3,6 +3,7 @@
 import re
 
 from ai4u_edu.base.errors import ActionError, AI4UError
+from ai4u_edu.locale import sentence
 from ai4u_edu.page.editing.driver_options import KEYS, OWN_BRAIN, with_driver
 from ai4u_edu.page.editing.drivers import NETWORK, DriverRegistry
 from ai4u_edu.page.editing.dry_run import IdleBrain, dry_run
@@ -110,4 +111,4 @@ def _sentence(error: AI4UError) -> str:
             return _BY_FIELD.get(field, f"It needs a value for {field}.")
         text = problem.text
     text = text.removeprefix("agent ").partition(": ")[2] or text
-    return text[:1].upper() + text[1:].rstrip(".") + "."
+    return sentence(text)

@@ -2,6 +2,7 @@
 
 import re
 
+from ai4u_edu.locale import sentence
 from ai4u_edu.page.editing.forms import ParameterField
 from ai4u_edu.page.panel.block_words import BLOCK_WORDS
 
@@ -123,7 +124,7 @@ def plain_hint(field: ParameterField, block: str = "") -> str:
         text = re.sub(pattern, words, text)
     text = re.sub(r"\b[A-Z]\w+[A-Z]\w+", _title, text)
     text = re.sub(r"\b[a-z]+(_[a-z0-9]+)+\b", lambda found: found[0].replace("_", " "), text)
-    return text and text[:1].upper() + text[1:].rstrip(".") + "."
+    return sentence(text)
 
 
 def detail(field: ParameterField) -> str:
