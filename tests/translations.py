@@ -44,7 +44,7 @@ English = str | tuple[str, str]
 Keywords = Mapping[str, tuple[int, ...] | None]
 PYTHON_KEYWORDS: Keywords = {"_": None, "gettext": None, "ngettext": (1, 2)}
 PAGE_KEYWORDS: Keywords = {"t": None, "tn": (1, 2)}
-_VALUES = re.compile(r"\{[^{}]*\}")
+_VALUES = re.compile(r"\{[^{}]*\}|%\d")  # the second are Blockly's
 _MARKUP = re.compile(r"<code>.*?</code>|`[^`]*`|\]\([^()]*\)|<[^<>]+>|\*\*|&\w+;")
 
 

@@ -16,7 +16,8 @@ from starlette.responses import HTMLResponse, Response
 from starlette.routing import BaseRoute, Mount, Route
 from starlette.staticfiles import StaticFiles
 
-from ai4u_edu.page.server.page import STYLES
+from ai4u_edu.locale import language_of_page, reader
+from ai4u_edu.page.server.page import STYLES, with_catalogue
 from ai4u_edu.page.server.web_files import web_folder
 from tests.browser.fake_code import MODULES
 from tests.chromium import close_page, quick_page
@@ -96,7 +97,7 @@ class TabPage:
         scheme: ``light`` or ``dark``.
         has_fakes: Python and the world of the tab "Code" are fakes, see :mod:`fake_code`.
         prepare: called with the page before it is opened.
-        options: more of ``Browser.new_context``.
+        options: more of ``Browser.new_context``; ``locale`` is the tab's language.
     """
 
     def __init__(
@@ -213,7 +214,8 @@ def _index(styles: str, first: Iterable[str]) -> Callable[[Request], Response]:
 
     def route(request: Request) -> Response:
         texts = {"styles": styles, "style": FREE, "scripts": scripts, **request.query_params}
-        return HTMLResponse(INDEX.format_map(texts))
+        with reader(language_of_page(request.headers.get("accept-language", ""))):
+            return HTMLResponse(with_catalogue(INDEX.format_map(texts)))
 
     return route
 

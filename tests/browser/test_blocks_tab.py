@@ -230,3 +230,12 @@ def test_the_address_of_blockly_changes_with_it() -> None:
     version = hashlib.sha256(bundle.read_bytes()).hexdigest()[:8]
     script = (web_folder() / "blocks/workspace.js").read_text()
     assert f'vendor/blockly.js?v={version}"' in script
+
+
+def test_blockly_speaks_portuguese(chromium: Browser) -> None:
+    with BlocksPage.opened(chromium, size=(640, 800), locale="pt-BR") as tab:
+        tab.page.get_by_role("button", name="Blocos", exact=True).focus()
+        tab.keys("Enter")
+        expect(tab.focused).to_have_attribute("aria-label", re.compile("sempre"))
+        tab.keys("Shift+F10")
+        expect(tab.page.locator(".blocklyContextMenu")).to_contain_text("Desabilitar bloco")

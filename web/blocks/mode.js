@@ -241,7 +241,9 @@ export class BlocksMode {
     try {
       const names = ["agent", "python", "workspace"];
       const modules = await retried(() => Promise.all(names.map((name) => import(`./${name}.js`))));
-      this.#loaded = Object.assign({}, ...modules);
+      const loaded = Object.assign({}, ...modules);
+      await retried(loaded.setBlocklyLanguage);
+      this.#loaded = loaded;
     } catch {
       this.#say(FAILED);
       return null;

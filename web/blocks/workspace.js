@@ -3,6 +3,7 @@
 /** @import { AgentBlocks } from "./agent.js" */
 /** @import { Block, Program } from "./text.js" */
 
+import { blocklyWords } from "./blockly_words.js";
 import { blocksTheme } from "./theme.js";
 import { definitions, memoryBlocks, toolbox } from "./toolbox.js";
 import { setAttributes } from "../shared/dom.js";
@@ -18,6 +19,11 @@ const [SCALE, TOUCH_SCALE] = [0.9, 1];
 
 /** Blocks of a person who has none yet. */
 export const FIRST_BLOCKS = { blocks: { languageVersion: 0, blocks: [{ type: "on_decision", ...FIRST_PLACE, deletable: false }] } };
+
+/** Have Blockly speak the page's language; before the first workspace. */
+export async function setBlocklyLanguage() {
+  Blockly.setLocale(await blocklyWords());
+}
 
 export class BlocksWorkspace {
   /** Called after each change by the person. */

@@ -1,6 +1,10 @@
 /** Libraries of vendor/, by the version in their address. They come without types; of CodeMirror, here is what code/editor.js uses. */
 
 declare module "*/blockly.js?v=e631db10";
+declare module "*/blockly.pt_BR.js?v=a87d0860" {
+  const words: Record<string, string>;
+  export default words;
+}
 declare module "*/msgpack.js?v=269ec7b2";
 declare module "*/pyodide.asm.mjs?v=f7cdc8ec";
 declare module "*/pyodide.mjs?v=6f1d60f7";
