@@ -17,7 +17,7 @@ extensions = [
     "tests.docs_site.extension",
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-exclude_patterns = ["files", "locale"]
+exclude_patterns = ["files"]
 nitpicky = True
 smartquotes_action = "qe"  # -- is an option's beginning, and no dash
 
@@ -33,11 +33,18 @@ napoleon_numpy_docstring = False
 napoleon_use_ivar = True  # attributes with a text of their own are listed once
 toc_object_entries_show_parents = "hide"
 
-# catalogues of translations: docs/locale/LANGUAGE/LC_MESSAGES/PAGE.po
-locale_dirs = ["locale"]
-gettext_compact = False
-
 html_theme = "furo"
+templates_path = ["_templates"]
+html_sidebars = {
+    "**": [
+        "sidebar/brand.html",
+        "sidebar/languages.html",
+        "sidebar/search.html",
+        "sidebar/scroll-start.html",
+        "sidebar/navigation.html",
+        "sidebar/scroll-end.html",
+    ]
+}
 html_title = f"AI4U Edu {release}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]

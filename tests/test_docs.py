@@ -22,7 +22,11 @@ from tests.waiting import until
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [
+    ROOT / "README.md",
+    *sorted(ROOT.glob("README.*.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
+]
 FROM_AI4U = AI4U_PAGE.read_text(encoding="utf-8")
 MAX_FILM_BYTES = 1_500_000
 PROGRAMS = {

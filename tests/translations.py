@@ -26,13 +26,50 @@ from ai4u_edu.cli.main import help_texts
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.course import is_ticket, lessons
 from ai4u_edu.lessons.notebook import Cell
-from ai4u_edu.lessons.translation import texts_of
+from ai4u_edu.lessons.translation import texts_of, translated_cell
 from ai4u_edu.locale import LANGUAGES, LESSONS, LIBRARY, PAGE, PYTHON, SOURCE
 from ai4u_edu.locale.catalogues import catalogue_file
 from ai4u_edu.missions.mission import library_missions
 from ai4u_edu.scenes import Scene
 
 ROOT = Path(__file__).parents[1]
+DOCS = "docs"
+"""The folder of the domains of the docs, whose catalogues are in ``docs/locale``."""
+SITE = f"{DOCS}/site"
+"""The domain of what the docs site says by itself, around scenes and blocks."""
+README = ROOT / "README.md"
+PAGES = {
+    f"{LESSONS}/GLOSSARY": ROOT / "lessons/GLOSSARY.md",
+    f"{LESSONS}/README": ROOT / "lessons/README.md",
+    f"{DOCS}/repository": README,
+    **{
+        f"{DOCS}/{name}": ROOT / f"docs/{name}.md"
+        for name in (
+            "README",
+            "first-drive",
+            "install",
+            "page",
+            "class",
+            "teach",
+            "glossary",
+            "scenes",
+            "build-a-scene",
+            "build-an-agent",
+            "blocks",
+            "code-in-the-page",
+            "traces",
+            "python",
+            "explain",
+            "training",
+            "remote",
+            "sweeps-and-tournaments",
+            "jupyterhub",
+            "security",
+            "from-ai4u",
+        )
+    },
+}
+"""Pages that are translated, by their domains. Those for anyone who works on the code are not."""
 TRANSLATED = tuple(code for code in LANGUAGES if code != SOURCE)
 PLURAL_FORMS = {"pt_BR": "nplurals=2; plural=(n > 1);"}
 """Rules for the plurals of a new catalogue, by language; else Babel's."""
@@ -44,6 +81,7 @@ English = str | tuple[str, str]
 Keywords = Mapping[str, tuple[int, ...] | None]
 PYTHON_KEYWORDS: Keywords = {"_": None, "gettext": None, "ngettext": (1, 2)}
 PAGE_KEYWORDS: Keywords = {"t": None, "tn": (1, 2)}
+SITE_KEYWORDS: Keywords = {"words": None}
 _VALUES = re.compile(r"\{[^{}]*\}|%\d")  # the second are Blockly's
 _MARKUP = re.compile(r"<code>.*?</code>|`[^`]*`|\]\([^()]*\)|<[^<>]+>|\*\*|&\w+;")
 
@@ -74,7 +112,9 @@ def domains() -> list[Domain]:
     python.texts += _in_code("web", "pages/**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
     page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
-    return [python, page, Domain(LIBRARY, [*_scene_texts(), *_mission_texts()]), *_lesson_domains()]
+    library = Domain(LIBRARY, [*_scene_texts(), *_mission_texts()])
+    site = Domain(SITE, list(_in_code("tests/docs_site", "*_pages.py", "python", SITE_KEYWORDS)))
+    return [python, page, library, *_lesson_domains(), *_page_domains(), site]
 
 
 def _in_code(
@@ -116,12 +156,55 @@ def _lesson_domains() -> Iterator[Domain]:
         yield domain
 
 
+def _page_domains() -> Iterator[Domain]:
+    for name, path in PAGES.items():
+        cell = Cell(path.read_text(encoding="utf-8"), is_text=True)
+        yield Domain(name, _in_cells([cell], path.relative_to(ROOT).as_posix()))
+
+
+def page_translation(language: str, domain: str, text: str) -> str:
+    """Return a page of the docs in a language; what has no translation stays English.
+
+    Args:
+        language: the language's code.
+        domain: the page's domain, a key of :data:`PAGES`.
+        text: the page in English, as Markdown.
+    """
+    translate = translation(language, domain)
+    return translated_cell(Cell(text, is_text=True), translate).source + "\n"
+
+
+def translation(language: str, domain: str) -> Callable[[str], str]:
+    """Return a function that translates texts without values, by the ``.po`` file of a domain."""
+    texts = {message.id: str(message.string) for message in translated(read(language, domain))}
+    return lambda text: texts.get(text, text)
+
+
+def readme_file(language: str) -> Path:
+    """Return the place of the repository's README in a language."""
+    return README.with_name(f"README.{language.replace('_', '-')}.md")
+
+
+def readme(language: str) -> str:
+    """Return the repository's README in a language, with a link to the English one."""
+    text = page_translation(language, f"{DOCS}/repository", README.read_text(encoding="utf-8"))
+    own, english = LANGUAGES[language], LANGUAGES[SOURCE]
+    return text.replace(
+        f'{english} · <a href="{readme_file(language).name}">{own}</a>',
+        f'<a href="{README.name}">{english}</a> · {own}',
+        1,
+    )
+
+
 def _in_cells(cells: Iterable[Cell], file: str) -> list[tuple[English, str]]:
     return [(text, file) for cell in cells for text in texts_of(cell)]
 
 
 def po_file(language: str, domain: str) -> Path:
     """Return the catalogue that a translator edits."""
+    if domain.startswith(f"{DOCS}/"):
+        name = domain.removeprefix(f"{DOCS}/")
+        return ROOT / "docs" / "locale" / language / "LC_MESSAGES" / f"{name}.po"
     return catalogue_file(language, f"{domain}.po")
 
 
@@ -167,10 +250,11 @@ def compile_all() -> None:
         for file in sorted(folder.rglob("*.po")):
             domain = file.relative_to(folder).with_suffix("").as_posix()
             compiled(language, domain).write_bytes(compiled_content(language, domain))
+        readme_file(language).write_text(readme(language), encoding="utf-8")
 
 
 def compiled(language: str, domain: str) -> Path:
-    """Return the file that the program reads."""
+    """Return the file that the program reads; domains of the docs have none."""
     suffix = ".json" if domain == PAGE else ".mo"
     return catalogue_file(language, f"{domain}{suffix}")
 

@@ -11,7 +11,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import course_folder, lessons
 from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import FOLDER
-from ai4u_edu.lessons.translation import translated_lesson
+from ai4u_edu.lessons.translation import translated_lesson, translated_page
 from ai4u_edu.locale import SOURCE
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
@@ -35,14 +35,14 @@ class HandedOut:
 
 
 def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
-    """Write the notebooks and their pictures.
+    """Write the notebooks, their pictures and the glossary.
 
     An existing notebook stays. If the course has a newer version, that is written beside it, as
     ``NAME.new.ipynb``.
 
     Args:
         folder: the student's folder.
-        language: code of the notebooks' language, such as ``pt_BR``; what has no translation is
+        language: code of their language, such as ``pt_BR``; what has no translation is
             English.
 
     Raises:
@@ -52,7 +52,7 @@ def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
     try:
         (folder / FOLDER).mkdir(parents=True, exist_ok=True)
         shutil.copytree(course_folder() / "pictures", folder / "pictures", dirs_exist_ok=True)
-        shutil.copyfile(course_folder() / "GLOSSARY.md", folder / "GLOSSARY.md")
+        write_atomically(folder / "GLOSSARY.md", translated_page("GLOSSARY", language))
         config = lab_config(folder) / "labconfig"
         config.mkdir(parents=True, exist_ok=True)
         write_atomically(config / "page_config.json", json.dumps(LAB, indent=1))

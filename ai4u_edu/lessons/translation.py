@@ -1,4 +1,4 @@
-"""The course in other languages: what of a notebook is translated, and how it is put back.
+"""The course in other languages: what of a notebook or page is translated, and how it is put back.
 
 A text is translated by paragraph, item of a list, or row of a table; code by comment, and by those
 strings that are meant to be read: they hold a space, are printed, or name a plot or its axes.
@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import groupby
 
-from ai4u_edu.lessons.course import Lesson, lesson
+from ai4u_edu.lessons.course import Lesson, course_folder, lesson
 from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, catalogue
 
@@ -21,11 +21,13 @@ SETUP = "setup"
 """Tag of the cell with a notebook's imports."""
 LANGUAGE_CELL = "from ai4u_edu.locale import set_language\n\nset_language({code!r})"
 _PREFIX = re.compile(r"(?P<prefix>\s*(?:[-*] |\d+\. |#+ |\| |> )?)(?P<words>.*)", re.DOTALL)
-_BEGINS = re.compile(r"\s*(?:[-*] |\d+\. |#+ |\||> )")
+_BEGINS = re.compile(r"\s*(?:[-*] |\d+\. |#+ |\||> |<(?:!--|/?(?:div|p|img)\b))")
 _RULE = re.compile(r"\s*\|[-|: ]+\|\s*")
 _LABELS = ("title", "xlabel", "ylabel")
 """Names of arguments whose strings are read, also if they are one word."""
 _FENCE = "```"
+_HTML = re.compile(r"\s*<")
+_ALT = re.compile(r'(?<= alt=")[^"]+')
 _QUOTES = re.compile(r"""[a-zA-Z]*(?P<quote>\"{3}|'{3}|"|')""")
 
 
@@ -70,6 +72,20 @@ def translated_lesson(name: str, cells: list[Cell], language: str) -> list[Cell]
     return translated
 
 
+def translated_page(name: str, language: str) -> str:
+    """Return a page of the course, such as its glossary, in a language.
+
+    Args:
+        name: the page's name, such as ``GLOSSARY``.
+        language: the language's code.
+    """
+    page = (course_folder() / f"{name}.md").read_text(encoding="utf-8")
+    if language == SOURCE:
+        return page
+    translate = Catalogue(language, f"{LESSONS}/{name}").message
+    return translated_cell(Cell(page, is_text=True), translate).source + "\n"
+
+
 def translated_title(lesson: Lesson) -> str:
     """Return a lesson's title in the reader's language."""
     return Catalogue(catalogue().language, f"{LESSONS}/{lesson.name}").message(lesson.title)
@@ -101,6 +117,8 @@ def _text_in(source: str, translate: Translate) -> str:
             is_code ^= item[0].lstrip().startswith(_FENCE)
             if was_code or is_code or _RULE.fullmatch(item[0]):
                 lines += item
+            elif _HTML.match(item[0]):
+                lines += [_ALT.sub(lambda words: translate(words[0]), line) for line in item]
             else:
                 lines.append(_translated_item(item, translate))
     return "\n".join(lines)
@@ -110,12 +128,16 @@ def _items(block: list[str]) -> Iterator[list[str]]:
     """Yield the lines of each item of a list, row of a table, fenced line, or paragraph."""
     item: list[str] = []
     for line in block:
-        if item and (_BEGINS.match(line) or _FENCE in line or _FENCE in item[0]):
+        if item and (_BEGINS.match(line) or _FENCE in line or _ends_in_its_line(item[0])):
             yield item
             item = []
         item.append(line)
     if item:
         yield item
+
+
+def _ends_in_its_line(line: str) -> bool:
+    return _FENCE in line or _HTML.match(line) is not None
 
 
 def _translated_item(item: list[str], translate: Translate) -> str:

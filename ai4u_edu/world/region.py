@@ -62,7 +62,8 @@ class Region:
         """Return what an area's picture shows at points of the world (metres).
 
         Returns:
-            (n, 4): red, green, blue and opacity; 0 beside the picture, or if there is none.
+            Red, green, blue and opacity, of shape (n, 4); 0 beside the picture, or if there is
+            none.
         """
         seen = np.zeros((len(x), 4), np.uint8)
         described = self.description

@@ -20,15 +20,6 @@ from tests.docs_site.examples import Example, example_of, has_docstring_example
 from tests.docs_site.staging import Staging
 
 FOLDER = "blocks"
-TITLES = {
-    "sensors": "Sensors",
-    "actuators": "Actuators",
-    "rewards": "Reward functions",
-    "brains": "Brains",
-    "controllers": "Controllers",
-    "parts": "Parts of other blocks",
-}
-"""Headings of the kinds, as in :func:`built_in_blocks`."""
 MAX_NAMED_NUMBERS = 24
 """Most numbers of a reading that get a row each."""
 
@@ -48,28 +39,40 @@ class Page:
 
 def add_blocks(site: Staging) -> None:
     """Write a page for each built-in block, and the lists of them."""
-    index = []
+    index, titles = [], titles_of_kinds(site)
     for kind, members in built_in_blocks().items():
         if not members:
             continue
         index.append(kind)
-        site.write(f"{FOLDER}/{kind}.rst", _list_of(kind, members))
+        site.write(f"{FOLDER}/{kind}.rst", _list_of(site, titles[kind], members))
         for cls in members:
             page = page_of(cls)
             site.write(f"{FOLDER}/{cls.__name__}.rst", page.text)
             if page.picture is not None:
                 site.write(f"{FOLDER}/{cls.__name__}.png", page.picture)
-    listed = "\n".join(f"- [{TITLES[kind]}]({FOLDER}/{kind}.rst)" for kind in index)
+    listed = "\n".join(f"- [{titles[kind]}]({FOLDER}/{kind}.rst)" for kind in index)
     entries = "\n".join(f"{FOLDER}/{kind}" for kind in index)
     site.append("blocks.md", f"{listed}\n\n```{{toctree}}\n:hidden:\n\n{entries}\n```\n")
 
 
-def _list_of(kind: str, members: Iterable[type[Block]]) -> str:
+def titles_of_kinds(site: Staging) -> dict[str, str]:
+    """Return headings of the kinds, as in :func:`built_in_blocks`."""
+    return {
+        "sensors": site.words("Sensors"),
+        "actuators": site.words("Actuators"),
+        "rewards": site.words("Reward functions"),
+        "brains": site.words("Brains"),
+        "controllers": site.words("Controllers"),
+        "parts": site.words("Parts of other blocks"),
+    }
+
+
+def _list_of(site: Staging, title: str, members: Iterable[type[Block]]) -> str:
     rows = [(f":doc:`{cls.__name__}`", summary(cls).split(" Source:")[0]) for cls in members]
     return "\n".join(
         [
-            rst.title(TITLES[kind]),
-            rst.table(("block", "what it is"), rows, (1, 2)),
+            rst.title(title),
+            rst.table((site.words("block"), site.words("what it is")), rows, (1, 2)),
             rst.hidden_toctree(cls.__name__ for cls in members),
         ]
     )

@@ -20,6 +20,8 @@ from sphinx.domains.python import PythonDomain
 from sphinx.environment import BuildEnvironment
 from sphinx.util.nodes import make_refnode
 
+from ai4u_edu.locale import LANGUAGES, SOURCE
+
 ROOT = Path(__file__).resolve().parents[2]
 EXTERNAL_LINKS = "external_links.txt"
 """File beside the pages with all links to other hosts, which the build does not fetch."""
@@ -31,8 +33,22 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.connect("autodoc-process-docstring", texts.keep, priority=400)  # before Napoleon
     app.connect("autodoc-process-docstring", texts.restore, priority=600)
     app.connect("missing-reference", resolve)
+    app.connect("html-page-context", add_languages)
     app.connect("build-finished", write_external_links)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def add_languages(
+    app: Sphinx, page: str, template: str, context: dict[str, Any], doctree: nodes.document | None
+) -> None:
+    """Tell the template of a page where the page is in the other languages."""
+    own = app.config.language
+    root = "../" * (page.count("/") + (own != SOURCE))
+    places = {code: "" if code == SOURCE else f"{code}/" for code in LANGUAGES if code != own}
+    context["languages"] = [
+        (code.replace("_", "-"), LANGUAGES[code], f"{root}{place}{page}.html")
+        for code, place in places.items()
+    ]
 
 
 class AttributeTexts:

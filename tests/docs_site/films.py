@@ -2,6 +2,7 @@
 
 import io
 from dataclasses import dataclass
+from functools import cache
 
 from PIL import Image
 
@@ -37,6 +38,7 @@ class UnsolvedError(Exception):
     """The solver did not reach the goal."""
 
 
+@cache
 def film_of(name: str) -> Film:
     """Let the solver of a scene drive, and film it.
 

@@ -3,8 +3,12 @@
 import os
 import re
 import shutil
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+
+from ai4u_edu.locale import SOURCE, Catalogue, Text
+from tests.translations import PAGES, SITE, page_translation, translation
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
@@ -14,6 +18,8 @@ OTHER_PAGES = {
     "lessons/README.md": "lessons/index.md",
 }
 """Pages of the site that are elsewhere in the repository, and their names in the site."""
+NO_PAGES = {"__pycache__", "locale"}
+"""Folders of ``docs/`` that the site doesn't need."""
 FILES = "files"
 """Folder for what pages link to and is no page, such as sources."""
 
@@ -21,6 +27,7 @@ LINK = re.compile(r"((?:^|!?\[)(?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*\]\()([^)\s]+)(\
 """A link with its target; of one whose text goes over two lines, the rest in the second."""
 FENCE = re.compile(r"^ *(```|~~~)")
 HEADING = re.compile(r"## (.+)")
+ANY_HEADING = re.compile(r"#{1,6} (.+)")
 ENTRY = re.compile(r"- \[[^\]]*\]\(([^)#]+)\)")
 
 
@@ -49,11 +56,27 @@ class Staging:
 
     Args:
         folder: it is made; what is in it and not written again is removed by :meth:`close`.
+        language: code of the pages' language; what has no translation is English.
     """
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, language: str = SOURCE) -> None:
+        self.folder, self.language = folder, language
+        self._catalogue, self._words = Catalogue(language), translation(language, SITE)
         self._written: set[Path] = set()
+
+    def words(self, text: str) -> str:
+        """Return a text of the site itself in the pages' language; ``text`` is a literal."""
+        return self._words(text)
+
+    def translated(self, text: str) -> str:
+        """Return a text of the package in the pages' language.
+
+        Args:
+            text: a text that knows its catalogue, or the key of one that Python code says.
+        """
+        if isinstance(text, Text):
+            return self._catalogue.translate(text)
+        return self._catalogue.message(text)
 
     def write(self, name: str, content: str | bytes) -> Path:
         """Write a file, unless it has this content already: Sphinx reads again what is newer."""
@@ -81,7 +104,7 @@ class Staging:
         """Add all files of ``docs/``, the other pages, and what these link to."""
         files = [path for path in sorted(DOCS.rglob("*")) if path.is_file()]
         for path in [*files, *(ROOT / name for name in OTHER_PAGES)]:
-            if "__pycache__" in path.parts:
+            if NO_PAGES & {*path.parts}:
                 continue
             name = name_in_site(path.relative_to(ROOT))
             if path.suffix == ".md":
@@ -99,9 +122,16 @@ class Staging:
                 shutil.rmtree(path)
 
     def _page(self, path: Path, name: str) -> str:
-        text = path.read_text(encoding="utf-8")
+        text = self._text(path)
         page = "".join(self._line(line, path, name, code) for line, code in _lines(text))
         return page + (_toctrees(page, name == "index.md") if name.endswith("index.md") else "")
+
+    def _text(self, path: Path) -> str:
+        text = path.read_text(encoding="utf-8")
+        domain = next((name for name, page in PAGES.items() if page == path), "")
+        if self.language == SOURCE or not domain:
+            return text
+        return page_translation(self.language, domain, text)
 
     def _line(self, line: str, path: Path, name: str, is_code: bool) -> str:
         if is_code:
@@ -111,17 +141,38 @@ class Staging:
     def _target(self, target: str, path: Path, name: str) -> str:
         """Return a link's target as it is from the page's place in the site."""
         there, hash_, anchor = target.partition("#")
-        if not there or "://" in there or there.startswith("mailto:"):
+        if "://" in there or there.startswith("mailto:"):
             return target
-        file = (path.parent / there).resolve()
+        file = (path.parent / there).resolve() if there else path
         if file.is_dir():
             file /= "README.md"
         if not file.is_file():
             return target  # Sphinx warns of it
+        if self.language != SOURCE and file.suffix == ".md":
+            english = anchors(file.read_text(encoding="utf-8"))
+            anchor = dict(zip(english, anchors(self._text(file)), strict=True)).get(anchor, anchor)
+        if not there:
+            return hash_ + anchor
         place = name_in_site(file.relative_to(ROOT))
         if place.startswith(f"{FILES}/"):
             self.write(place, file.read_bytes())
         return os.path.relpath(place, Path(name).parent).replace(os.sep, "/") + hash_ + anchor
+
+
+def anchors(page: str) -> list[str]:
+    """Return the anchors of a page's headings, as MyST and GitHub make them.
+
+    >>> anchors("# The page\\n\\n## `R`, and N\\n\\n## The page\\n")
+    ['the-page', 'r-and-n', 'the-page-1']
+    """
+    found = list[str]()
+    times = Counter[str]()
+    for line, is_code in _lines(page):
+        if not is_code and (heading := ANY_HEADING.match(line)):
+            words = re.sub(r"[^\w\- ]", "", heading[1].strip().lower()).replace(" ", "-")
+            found.append(f"{words}-{times[words]}" if times[words] else words)
+            times[words] += 1
+    return found
 
 
 def _lines(text: str) -> Iterator[tuple[str, bool]]:

@@ -16,8 +16,10 @@ from playwright.sync_api import expect
 from ai4u_edu import Scene
 from ai4u_edu.blocks.docs import built_in_blocks
 from ai4u_edu.cli.main import app
+from ai4u_edu.locale import LANGUAGES, SOURCE
 from tests.chromium import browser, new_page
 from tests.docs_site.staging import DOCS, ROOT, Staging, name_in_site
+from tests.translations import TRANSLATED
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
@@ -165,11 +167,20 @@ def test_external_links_are_listed(site: Path) -> None:
     assert re.search(r"^https://gymnasium\.farama\.org  .*\btraining\b", listed, re.MULTILINE)
 
 
-def test_templates_for_translators_are_made(site: Path) -> None:
-    source, out = site.parent / "source", site.parent / "gettext"
-    done = run("-m", "sphinx", "-b", "gettext", "-W", "-q", str(source), str(out))
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert 'msgid "First drive"' in (out / "first-drive.pot").read_text(encoding="utf-8")
+def test_every_page_has_a_link_to_itself_in_the_other_languages(site: Path) -> None:
+    pages = [page.relative_to(site) for page in site.rglob("*.html")]
+    english = {page for page in pages if page.parts[0] not in LANGUAGES}
+    for language in TRANSLATED:
+        translated = {page.relative_to(language) for page in pages if page.parts[0] == language}
+        assert translated == english
+        code = language.replace("_", "-")
+        for page in english:
+            here, there = site / page, site / language / page
+            for one, other, wanted in ((here, there, code), (there, here, SOURCE)):
+                text = one.read_text(encoding="utf-8")
+                (address,) = re.findall(f'<a href="([^"]+)" hreflang="{wanted}"', text)
+                assert (one.parent / address).resolve() == other
+            assert f'<html class="no-js" lang="{code}"' in text
 
 
 def small_site(folder: Path, text: str) -> Path:
@@ -177,6 +188,8 @@ def small_site(folder: Path, text: str) -> Path:
     staging = Staging(folder / "source")
     staging.write("conf.py", (DOCS / "conf.py").read_text(encoding="utf-8"))
     staging.write("_static/site.css", "")
+    template = "_templates/sidebar/languages.html"
+    staging.write(template, (DOCS / template).read_text(encoding="utf-8"))
     staging.write("index.md", text)
     return staging.folder
 
@@ -187,14 +200,3 @@ def test_a_link_to_nowhere_fails_the_build(tmp_path: Path) -> None:
     assert done.returncode != 0
     assert "nowhere.md" in done.stderr
     assert "nothing" in done.stderr
-
-
-def test_a_catalogue_translates_a_page(tmp_path: Path) -> None:
-    source = small_site(tmp_path, "# First drive\n\nPress W.\n")
-    catalogue = source / "locale" / "pt" / "LC_MESSAGES" / "index.po"
-    catalogue.parent.mkdir(parents=True)
-    header = 'msgid ""\nmsgstr "Content-Type: text/plain; charset=UTF-8\\n"\n\n'
-    catalogue.write_text(f'{header}msgid "First drive"\nmsgstr "Primeira volta"\n')
-    done = run("-m", "sphinx", "-W", "-D", "language=pt", str(source), str(tmp_path / "html"))
-    assert done.returncode == 0, done.stderr
-    assert "<h1>Primeira volta" in (tmp_path / "html" / "index.html").read_text(encoding="utf-8")

@@ -15,6 +15,7 @@ from ai4u_edu.lessons import handout
 from ai4u_edu.lessons.course import lessons
 from ai4u_edu.lessons.handout import hand_out
 from ai4u_edu.lessons.notebook import dumps
+from ai4u_edu.locale import PSEUDO
 
 NAMES = [f"{lesson.name}.ipynb" for lesson in lessons()]
 
@@ -28,6 +29,13 @@ def test_all_notebooks_are_handed_out_and_no_solution(tmp_path: Path) -> None:
     everything = "".join(path.read_text() for path in folder.glob("*.ipynb"))
     assert "solution" in everything
     assert not list(folder.rglob("answers"))
+
+
+def test_the_glossary_is_handed_out_in_the_language_of_the_notebooks(tmp_path: Path) -> None:
+    hand_out(tmp_path, PSEUDO)
+    assert "# Glossary" not in (tmp_path / "GLOSSARY.md").read_text(encoding="utf-8")
+    hand_out(tmp_path)
+    assert (tmp_path / "GLOSSARY.md").read_text(encoding="utf-8").startswith("# Glossary\n")
 
 
 def test_a_second_time_everything_stays(tmp_path: Path) -> None:

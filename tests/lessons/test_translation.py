@@ -28,6 +28,15 @@ def test_a_text_is_cut_into_paragraphs_items_and_rows() -> None:
     ]
 
 
+def test_html_is_kept_but_for_the_words_of_pictures() -> None:
+    source = '<p>\n  <img src="a.png" alt="a robot" />\n</p>\nwords\n<!-- no word -->\n| a word |'
+    page = Cell(source, is_text=True)
+    assert list(texts_of(page)) == ["a robot", "words", "a word |"]
+    assert translated_cell(page, str.upper).source == (
+        '<p>\n  <img src="a.png" alt="A ROBOT" />\n</p>\nWORDS\n<!-- no word -->\n| A WORD |'
+    )
+
+
 def test_code_is_cut_into_comments_and_strings_that_are_read() -> None:
     source = (
         "# turn left\n"
