@@ -19,7 +19,7 @@ MAX_HEADER_CHARS: Final = 500
 def known_language(wanted: str) -> str:
     """Return the code of a language, however it is spelled; empty if there are no texts in it.
 
-    >>> [known_language(each) for each in ("pt_BR", "pt-br", "pt", "pt_PT.UTF-8", "en-GB", "fr")]
+    >>> [known_language(each) for each in ("pt_BR", "pt-br", "pt", "pt_PT.UTF-8", "en-GB", "la")]
     ['pt_BR', 'pt_BR', 'pt_BR', 'pt_BR', 'en', '']
     """
     code = wanted.partition(".")[0].partition("@")[0].strip().replace("-", "_").lower()
@@ -39,9 +39,9 @@ def language_of_header(accept_language: str) -> str:
     Args:
         accept_language: the header, from anybody; what can't be read in it is left out.
 
-    >>> language_of_header("fr;q=0.9, pt-BR, en;q=0.8")
+    >>> language_of_header("la;q=0.9, pt-BR, en;q=0.8")
     'pt_BR'
-    >>> language_of_header("fr"), language_of_header("en;q=0.4, pt;q=0.7"), language_of_header("")
+    >>> language_of_header("la"), language_of_header("en;q=0.4, pt;q=0.7"), language_of_header("")
     ('', 'pt_BR', '')
     """
     wanted = [_weighted(part) for part in accept_language[:MAX_HEADER_CHARS].split(",")]

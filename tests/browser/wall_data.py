@@ -5,6 +5,8 @@ import math
 from functools import cache
 from typing import Any
 
+from msgspec.structs import asdict
+
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.names import COLOURS, words_of
 from ai4u_edu.classroom.teacher import join_code
@@ -12,7 +14,7 @@ from ai4u_edu.member.thumbnail import drawing_of, poses_of
 from ai4u_edu.page.server.library_pictures import picture_address
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.wire.class_link import Drawing, Poses
+from ai4u_edu.wire.class_link import Drawing, Poses, Switches
 
 CODE = "KVBTM"
 MAX_SEEDS = 8
@@ -91,7 +93,7 @@ def class_message(count: int, **changes: Any) -> dict[str, Any]:
         "qr": join_code(ADDRESS, CODE),
         "open": True,
         "attention": {"kind": "", "message": "", "ends_in": 0.0},
-        "switches": {"sound": False},
+        "switches": asdict(Switches()),
         "shown": {"kind": "join", "room": "", "game": 0},
         "race": None,
         "tournament": None,
