@@ -3,6 +3,7 @@
 import contextlib
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import viser
 from playwright.sync_api import Browser, Locator, Page
@@ -48,15 +49,17 @@ class ServedViser:
         touch: bool = False,
         prepare: Callable[[Page], object] = lambda page: None,
         wait: bool = True,
+        **options: Any,
     ) -> Page:
         """Open a page in a window of its own; it may ask nobody but the room for anything.
 
         Without viser it has our scripts and styles, a text box, a button and an empty canvas.
+
+        Args:
+            options: more of ``Browser.new_context``.
         """
-        headers = {} if has_viser else ASKED
-        page = quick_page(
-            self.chromium, width, height, draws=draws, has_touch=touch, extra_http_headers=headers
-        )
+        options |= {"has_touch": touch, "extra_http_headers": {} if has_viser else ASKED}
+        page = quick_page(self.chromium, width, height, draws=draws, **options)
         self.pages.append(page)
         page.on("pageerror", lambda error: self.complaints.append(f"error: {error}"))
         page.on("request", lambda request: self._check(request.url))

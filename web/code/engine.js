@@ -54,6 +54,17 @@ function problem(kind, text, line = 0) {
 }
 
 /**
+ * Return an answer with the sentence for what happened in the worker outside of host.py.
+ * @param {Answer} answer
+ * @returns {Answer}
+ */
+function said(answer) {
+  if (answer.kind === "broken") return { ...answer, text: t("Python has stopped: {error}", { error: answer.text }) };
+  if (answer.kind === "too_large") return { ...answer, text: t("The program sent too much at once.") };
+  return answer;
+}
+
+/**
  * Return JSON for host.py.
  * @param {unknown} value
  */
@@ -284,7 +295,7 @@ class Runtime {
     });
     const answer = await Promise.race([this.#ask({ method, text }), late]);
     clearTimeout(timer);
-    const found = answer ? JSON.parse(answer) : problem("endless", ENDLESS, this.#line);
+    const found = answer ? said(JSON.parse(answer)) : problem("endless", ENDLESS, this.#line);
     this.isStuck ||= !answer || found.kind === "broken";
     return found;
   }
@@ -306,7 +317,7 @@ class Runtime {
       parts = null; // the next worker tries again
       throw error;
     });
-    const answer = JSON.parse(await Promise.race([this.#ask({ method: "start", parts: given }), failed]));
+    const answer = said(JSON.parse(await Promise.race([this.#ask({ method: "start", parts: given }), failed])));
     if (answer.ok === false) throw new Error(answer.text);
   }
 

@@ -6,7 +6,7 @@
  *
  * The page sends {id, method: "start", parts}, then {id, method, text} with a method of
  * ai4u_edu/program/host.py; each is answered with {id, text}. Before, {id, isBegun} says that
- * the call has begun, and {line} which line of the program is about to run.
+ * the call has begun, and {line} which line of the program is about to run. Sentences are the page's: a worker has no texts.
  */
 
 /** @import { Parts } from "./engine.js" */
@@ -48,15 +48,15 @@ self.addEventListener("message", async ({ data: { id, method, text, parts } }) =
     else send({ id, isBegun: true });
     answer = method === "start" ? "{}" : methods[method](text);
   } catch (error) {
-    answer = problem("broken", `Python has stopped: ${String(error).trim().slice(-500)}`);
+    answer = problem("broken", String(error).trim().slice(-500));
   }
-  if (answer.length > MAX_ANSWER_CHARS) answer = problem("too_large", "The program sent too much at once.");
+  if (answer.length > MAX_ANSWER_CHARS) answer = problem("too_large", "");
   send({ id, text: answer });
 });
 
 /**
- * @param {string} kind
- * @param {string} text
+ * @param {string} kind of which code/engine.js knows the sentence
+ * @param {string} text that it has in it
  */
 function problem(kind, text) {
   return JSON.stringify({ ok: false, kind, text, line: 0, printed: "", lines: [], variables: {} });

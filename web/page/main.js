@@ -30,6 +30,7 @@ import { PictureRate } from "./resolution.js";
 import { KEYS, NETWORK, PROGRAM, Results } from "./results.js";
 import { JsonSocket } from "../shared/socket.js";
 import { t } from "../shared/text.js";
+import { translateNotices } from "./viser_words.js";
 
 /** Code of the key for a new start, unless the agent or the person uses it for something else. */
 const NEW_START_CODE = "KeyN";
@@ -277,6 +278,7 @@ loadLayout().then(arrange);
 socket.open();
 setAttributes(document.getElementById("root"), { role: "main", "aria-label": t("World") });
 trackCanvasEdges();
+translateNotices();
 watchSharedScene();
 if (HAS_PANEL) {
   const { startPanel } = await import("../panel/panel.js");
