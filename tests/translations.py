@@ -30,6 +30,7 @@ from ai4u_edu.lessons.translation import texts_of, translated_cell
 from ai4u_edu.locale import LANGUAGES, LESSONS, LIBRARY, PAGE, PYTHON, SOURCE
 from ai4u_edu.locale.catalogues import catalogue_file
 from ai4u_edu.missions.mission import library_missions
+from ai4u_edu.page.panel.form_texts import form_texts
 from ai4u_edu.scenes import Scene
 
 ROOT = Path(__file__).parents[1]
@@ -111,6 +112,7 @@ def domains() -> list[Domain]:
     python = Domain(PYTHON, list(_in_code("ai4u_edu", "**.py", "python", PYTHON_KEYWORDS)))
     python.texts += _in_code("web", "pages/**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
+    python.texts += [(text, "ai4u_edu/page/panel") for text in form_texts()]
     page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
     library = Domain(LIBRARY, [*_scene_texts(), *_mission_texts()])
     site = Domain(SITE, list(_in_code("tests/docs_site", "*_pages.py", "python", SITE_KEYWORDS)))

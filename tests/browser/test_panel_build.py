@@ -83,7 +83,7 @@ DRIVERS = [
     {
         "name": "keys:StrikerController",
         "title": "Striker",
-        "reason": "Not for this robot: it needs a sensor with the name ball.",
+        "reason": "It needs a sensor with the name ball.",
     },
 ]
 GALLERY = [

@@ -2,16 +2,17 @@
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import httpx
 import pytest
 
 from ai4u_edu.locale import LIBRARY, PSEUDO, VARIABLE, Catalogue, gettext, library_text
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.panel.field_hints import FIELD_HINTS
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
-from tests.page.panel.rooms import PanelPage, panel_room
+from tests.page.panel.rooms import PanelPage, PanelRoom, panel_room
 from tests.page.server.rooms import Room, served
 
 
@@ -76,6 +77,62 @@ def test_two_pages_of_one_world_hear_two_languages() -> None:
     works = gettext("It works right away.")
     assert texts[0].endswith(works)
     assert texts[1].endswith(Catalogue(PSEUDO).translate(works))
+
+
+def accented_page(room: PanelRoom) -> PanelPage:
+    return PanelPage(room.url + "ws/panel", additional_headers={"Accept-Language": "en-XA"})
+
+
+def untranslated(message: object, keys: Collection[str]) -> set[str]:
+    """Return the texts under some keys of a message that have a letter without its accent."""
+    if isinstance(message, Mapping):
+        here = {
+            text
+            for key in keys & message.keys()
+            for text in (message[key] if isinstance(message[key], list) else [message[key]])
+            if isinstance(text, str) and re.search("[aeiou]", text)
+        }
+        return here.union(*(untranslated(each, keys) for each in message.values()))
+    if isinstance(message, list):
+        return set().union(*(untranslated(each, keys) for each in message))
+    return set()
+
+
+def test_blocks_and_their_forms_are_translated() -> None:
+    keys = {"title", "question", "summary", "label", "hint", "reason"}
+    with panel_room() as room, accented_page(room) as page:
+        page.done("add_block", **{"class": "OrientationSensor", "parent": ["sensors"]})
+        page.show("0", "blocks", block=["sensors", 1])
+        part = page.part("blocks", lambda part: part["form"])
+        items = page.done("gallery", kind="rewards")["items"]
+        page.done("undo")
+        redo = page.part("blocks", lambda part: part["redo"]["label"])["redo"]
+    assert untranslated([part["form"], part["settings"], part["undo"], items], keys) == set()
+    fields = {field["name"]: field for field in part["form"]["fields"]}
+    accented = Catalogue(PSEUDO).translate
+    assert fields["target"]["hint"] == accented(FIELD_HINTS["target"])
+    assert redo["label"] == accented(
+        gettext("add {block}", block=gettext("Direction and distance"))
+    )
+    # names of parameters and values of a file stay as they are
+    assert fields["target"]["detail"].startswith("target. ")
+    assert fields["info"]["choices"] == ["both", "angle", "distance"]
+
+
+def test_things_and_their_forms_are_translated() -> None:
+    keys = {"title", "label", "hint", "words"}
+    with panel_room() as room, accented_page(room) as page:
+        said = page.done("nudge", names=["box"], dx=0.1)["text"]
+        page.done("change_field", values={"type": "maze"})
+        page.show("0", "world", body="box")
+        part = page.part("world", lambda part: part["form"] and len(part["field"]) > 1)
+        fields = {field["name"]: field for field in part["form"]["fields"]}
+        palette = page.done("palette")["items"]
+    assert untranslated([part["form"], palette], keys) == set()
+    assert untranslated([part["settings"], part["field"]], keys - {"words"}) == set()
+    assert fields["kind"]["choices"][1] == fields["kind"]["shown"] == "can be pushed"
+    assert fields["kind"]["words"][1] == Catalogue(PSEUDO).translate(gettext("can be pushed"))
+    assert said.startswith("Móvéd box tó x ")
 
 
 def test_texts_of_the_library_are_translated() -> None:

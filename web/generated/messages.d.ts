@@ -251,6 +251,8 @@ export interface FormField {
   detail: string;
   /** Values to choose from, for the kind `choice`; else suggestions. */
   choices: string[];
+  /** Words for these values in the reader's language. */
+  words: string[];
   /** True if every block of the kind has it. */
   is_common: boolean;
   /** True for the few fields that matter most. */

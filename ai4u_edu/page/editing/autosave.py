@@ -16,6 +16,7 @@ from secrets import token_hex
 
 from ai4u_edu.base.atomic_write import reason, remove_leftovers, write_atomically
 from ai4u_edu.base.file_lock import FileLock
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.page.editing.unsaved import (
     ENDING,
@@ -92,7 +93,7 @@ class Autosave:
             self._order = _last_start(folder) + 1, 0
             prune(folder)
             if not os.access(folder, os.W_OK):
-                self._fail("it may not be written to")
+                self._fail(_("it may not be written to"))
         except OSError as error:
             self._fail(reason(error))
         self._thread = threading.Thread(target=self._run, name="autosave", daemon=True)
@@ -212,7 +213,10 @@ class Autosave:
         return self._folder / f"{short}-{self._instance}-{number}{ENDING}"
 
     def _fail(self, why: str) -> None:
-        is_new, self.problem = not self.problem, f"changes can't be kept in {self._folder}: {why}"
+        is_new = not self.problem
+        self.problem = _(
+            "changes can't be kept in {folder}: {reason}", folder=str(self._folder), reason=why
+        )
         if is_new and self._on_problem is not None:
             self._on_problem(self.problem)
 

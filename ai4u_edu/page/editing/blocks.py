@@ -18,6 +18,7 @@ from ai4u_edu.blocks import (
     RewardFunc,
     Sensor,
 )
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.input_checks import (
     MAX_DEPTH,
@@ -48,9 +49,12 @@ def kind_at(path: BlockPath) -> type[Block]:
     _check_path(path)
     names = [part for part in path if isinstance(part, str)]
     if not names or names[-1] not in KINDS:
-        raise ChangeError(
-            [ParameterProblem((), f"{format_path(path)!r} is no place of blocks; {_places()}")]
+        text = _(
+            "{path!r} is no place of blocks; {hint}",
+            path=format_path(path),
+            hint=suggest("", KINDS),
         )
+        raise ChangeError([ParameterProblem((), text)])
     return KINDS[names[-1]]
 
 
@@ -76,11 +80,9 @@ def block_at(agent: Plain, path: BlockPath) -> Plain:
         try:
             here = here[part]
         except (KeyError, IndexError, TypeError):
-            raise ChangeError(
-                [ParameterProblem((), f"there is no block at {format_path(path)!r}")]
-            ) from None
+            raise _no_block_at(path) from None
     if not isinstance(here, Mapping) or "type" not in here:
-        raise ChangeError([ParameterProblem((), f"there is no block at {format_path(path)!r}")])
+        raise _no_block_at(path)
     return here
 
 
@@ -94,7 +96,11 @@ def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
     check_plain(values)
     if not isinstance(values, Mapping):
         raise ChangeError(
-            [ParameterProblem((), f"expected parameters by name, got {shown(values)}")]
+            [
+                ParameterProblem(
+                    (), _("expected parameters by name, got {values}", values=shown(values))
+                )
+            ]
         )
     block = dict(before) | dict(values)
     cls = Block.types.get(str(block["type"]))
@@ -139,9 +145,8 @@ def removed(agent: Plain, path: BlockPath) -> Plain:
     block_at(agent, path)
     *above, index = path
     if not isinstance(index, int):
-        raise ChangeError(
-            [ParameterProblem((), f"{format_path(path)} can be changed, but not left out")]
-        )
+        text = _("{path} can be changed, but not left out", path=format_path(path))
+        raise ChangeError([ParameterProblem((), text)])
     return _replace(agent, tuple(above), lambda blocks: [*blocks[:index], *blocks[index + 1 :]])
 
 
@@ -151,7 +156,8 @@ def moved(agent: Plain, path: BlockPath, by: int) -> Plain:
     check_number(by, "by", MAX_COUNT)
     *above, index = path
     if not isinstance(index, int):
-        raise ChangeError([ParameterProblem((), f"{format_path(path)} stands alone")])
+        text = _("{path} stands alone", path=format_path(path))
+        raise ChangeError([ParameterProblem((), text)])
 
     def move(blocks: list[Plain]) -> list[Plain]:
         others = [*blocks[:index], *blocks[index + 1 :]]
@@ -165,15 +171,16 @@ def with_enabled(agent: Plain, path: BlockPath, on: bool) -> Plain:
     """Enable or disable a block; exactly one brain is enabled."""
     block_at(agent, path)
     if not isinstance(on, bool):
-        raise ChangeError([ParameterProblem((), f"expected true or false, got {shown(on)}")])
-    if path[0] == "brains" and len(path) > 2:
         raise ChangeError(
-            [ParameterProblem((), f"{format_path(path)} is on whenever its brain is")]
+            [ParameterProblem((), _("expected true or false, got {value}", value=shown(on)))]
         )
+    if path[0] == "brains" and len(path) > 2:
+        text = _("{path} is on whenever its brain is", path=format_path(path))
+        raise ChangeError([ParameterProblem((), text)])
     if path[0] != "brains":
         return changed(agent, path, {"is_active": on})
     if not on:
-        text = "an agent has exactly one brain that is on; switch another one on in its place"
+        text = _("an agent has exactly one brain that is on; switch another one on in its place")
         raise ChangeError([ParameterProblem(("enabled",), text)])
     brains = [
         {**{k: v for k, v in brain.items() if k != "enabled"}}
@@ -201,15 +208,16 @@ def _replace(here: Any, path: BlockPath, change: Callable[[Any], Any]) -> Plain:
 
 def _check_path(path: object) -> None:
     if not isinstance(path, tuple | list) or len(path) > MAX_DEPTH:
-        raise ChangeError([ParameterProblem((), f"expected a block's path, got {shown(path)}")])
+        text = _("expected a block's path, got {path}", path=shown(path))
+        raise ChangeError([ParameterProblem((), text)])
     if not all(type(part) in (str, int) for part in path):
-        raise ChangeError(
-            [ParameterProblem((), f"expected names and numbers as path, got {shown(path)}")]
-        )
+        text = _("expected names and numbers as path, got {path}", path=shown(path))
+        raise ChangeError([ParameterProblem((), text)])
     for part in path:
         if isinstance(part, str):
-            check_name(part, "a path of names")
+            check_name(part, _("a path of names"))
 
 
-def _places() -> str:
-    return suggest("", KINDS)
+def _no_block_at(path: BlockPath) -> ChangeError:
+    text = _("there is no block at {path!r}", path=format_path(path))
+    return ChangeError([ParameterProblem((), text)])

@@ -4,12 +4,15 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Literal
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
+
 When = Literal["now", "next decision", "next reset"]
 
 _SENTENCES: dict[When, str] = {
-    "now": "works at once",
-    "next decision": "works from the next decision on",
-    "next reset": "works from the next reset on",
+    "now": _("works at once"),
+    "next decision": _("works from the next decision on"),
+    "next reset": _("works from the next reset on"),
 }
 
 
@@ -25,7 +28,7 @@ class ChangeResult:
 
     def __str__(self) -> str:
         """Return a sentence to show to a person."""
-        return "; ".join(filter(None, (_SENTENCES[self.when], self.note)))
+        return join([text for text in (_SENTENCES[self.when], self.note) if text], "; ")
 
 
 def failed(error: Exception) -> "Future[ChangeResult]":

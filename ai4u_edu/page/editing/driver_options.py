@@ -10,6 +10,8 @@ from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX, files_in
 from ai4u_edu.blocks.brains.zoo import names as in_the_zoo
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.page.editing.blocks import types_of, with_enabled
 from ai4u_edu.page.editing.drivers import NETWORK, REMOTE, Driver, DriverRegistry
 from ai4u_edu.page.editing.errors import ChangeError
@@ -19,13 +21,13 @@ from ai4u_edu.scenes.serialization import to_plain
 
 KEYS, OWN_BRAIN = "keys:", "brain:"
 
-KINDS = (
+KINDS = _(
     "expected brain:NUMBER (one that the agent has), keys:CONTROLLER, network:FILE.onnx or "
     "network:zoo:SCENE, ai4u://127.0.0.1:PORT, script:FILE.py:NAME or recording:NAME"
 )
 
 
-TO_OFFER = (
+TO_OFFER = _(
     "networks are offered that lie beside the scene's file, or that were named when the world was "
     "started (--offer FILE.onnx or FOLDER)"
 )
@@ -50,9 +52,13 @@ def with_driver(state: EditState, agent_id: str, name: str, drivers: DriverRegis
     if name.startswith(OWN_BRAIN) and name.removeprefix(OWN_BRAIN).isdecimal():
         index = int(name.removeprefix(OWN_BRAIN))
         if index >= len(brains):
-            raise ChangeError(
-                [ParameterProblem((), f"agent {agent_id!r} has {len(brains)} brains")]
+            text = ngettext(
+                "agent {agent!r} has {n} brain",
+                "agent {agent!r} has {n} brains",
+                len(brains),
+                agent=agent_id,
             )
+            raise ChangeError([ParameterProblem((), text)])
         return _with_enabled_brain(state.driven(agent_id, ""), agent_id, brains, index)
     wanted = _plain_brain(state, name, _rhythm(brains))
     same = [{**each, "enabled": None} == {**wanted, "enabled": None} for each in brains]
@@ -76,14 +82,16 @@ def driver_options(state: EditState, agent_id: str) -> list[Driver]:
         if not _needs_something(cls) and _controller_title(cls) not in has
     ]
     networks = [
-        Driver(f"{NETWORK}zoo:{scene}", f"Network zoo:{scene}")
+        Driver(f"{NETWORK}zoo:{scene}", _("Network {name}", name=f"zoo:{scene}"))
         for scene in in_the_zoo()
         if scene == state.description.name
     ]
     networks += [
-        Driver(f"{NETWORK}{name}", f"Network {name}") for name in _networks_in_folder(state)
+        Driver(f"{NETWORK}{name}", _("Network {name}", name=name))
+        for name in _networks_in_folder(state)
     ]
-    remote = [Driver(f"{REMOTE}127.0.0.1:8080", "AI4U script at 127.0.0.1:8080")]
+    address = "127.0.0.1:8080"
+    remote = [Driver(f"{REMOTE}{address}", _("AI4U script at {address}", address=address))]
     return [*brains, *keys, *(n for n in networks if n.title not in has), *remote]
 
 
@@ -107,11 +115,14 @@ def title_of(brain: Plain) -> str:
     if isinstance(controller, Mapping):
         path = controller.get("model_path")
         return (
-            f"Network {path}" if path else _controller_title(Block.types[str(controller["type"])])
+            _("Network {name}", name=str(path))
+            if path
+            else _controller_title(Block.types[str(controller["type"])])
         )
     if brain["type"] == "RemoteBrain":
         port = brain.get("port", 8080)
-        return f"AI4U script at {brain.get('host', '127.0.0.1')}:{port}"
+        address = f"{brain.get('host', '127.0.0.1')}:{port}"
+        return _("AI4U script at {address}", address=address)
     return str(brain["type"])
 
 
@@ -121,16 +132,16 @@ def _plain_brain(state: EditState, name: str, rhythm: dict[str, Any]) -> Plain:
     if name.startswith(NETWORK):
         path = name.removeprefix(NETWORK)
         if not path.startswith(ZOO_PREFIX) and path not in _networks_in_folder(state):
-            raise ChangeError(
-                [ParameterProblem((), f"no network {path!r} is offered here; {TO_OFFER}")]
-            )
+            text = _("no network {path!r} is offered here; {hint}", path=path, hint=TO_OFFER)
+            raise ChangeError([ParameterProblem((), text)])
         with files_in(state.folder):
             network = NeuralNetController(model_path=path)
         return _plain(LocalBrain(controller=network, **{**rhythm, **network.network.rhythm}))
     known = {cls.__name__: cls for cls in types_of("controller")}
     cls = known.get(name.removeprefix(KEYS))
     if not name.startswith(KEYS) or cls is None:
-        raise ChangeError([ParameterProblem((), f"nobody is called {name!r}; {KINDS}")])
+        text = _("nobody is called {name!r}; {hint}", name=name, hint=KINDS)
+        raise ChangeError([ParameterProblem((), text)])
     return {"type": "LocalBrain", "controller": {"type": cls.__name__}} | {
         name: value for name, value in rhythm.items() if value != _default(name)
     }
@@ -154,7 +165,9 @@ def _default(name: str) -> Any:
 
 
 def _controller_title(cls: type[Block]) -> str:
-    return f"{'Keyboard' if listens_to_keys(cls) else 'Program'}: {cls.__name__}"
+    if listens_to_keys(cls):
+        return _("Keyboard: {controller}", controller=cls.__name__)
+    return _("Program: {controller}", controller=cls.__name__)
 
 
 def _needs_something(cls: type[Block]) -> bool:

@@ -20,6 +20,7 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.blocks.brains.address import brain_at
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode
 
 SCRIPT, RECORDING, NETWORK, REMOTE = "script:", "recording:", "network:", "ai4u://"
@@ -68,19 +69,19 @@ class DriverRegistry:
             for name in _driver_names(path)
         ]
         recordings = [
-            Driver(f"{RECORDING}{path.name}", f"Recording {path.stem}")
+            Driver(f"{RECORDING}{path.name}", _("Recording {name}", name=path.stem))
             for path in self._files(".episode")
         ]
         kept = [
-            Driver(name, f"Recording {name.removeprefix(RECORDING)}")
+            Driver(name, _("Recording {name}", name=name.removeprefix(RECORDING)))
             for name in self._kept_episodes
         ]
         networks = [
-            Driver(f"{NETWORK}{path.name}", f"Network {title}")
+            Driver(f"{NETWORK}{path.name}", _("Network {name}", name=title))
             for path, title in self._networks().items()
         ]
         remotes = [
-            Driver(name, f"AI4U script at {brain.host}:{brain.port}")
+            Driver(name, _("AI4U script at {address}", address=f"{brain.host}:{brain.port}"))
             for name, brain in self._remotes.items()
         ]
         return [*scripts, *networks, *recordings, *kept, *remotes]
@@ -124,11 +125,16 @@ class DriverRegistry:
             path = self._network(name.removeprefix(NETWORK))
             network = NeuralNetController(model_path=str(path.absolute()))
             return LocalBrain(controller=network, **(rhythm | network.network.rhythm))
-        file, _, function = name.removeprefix(SCRIPT).rpartition(":")
+        file, _colon, function = name.removeprefix(SCRIPT).rpartition(":")
         path = self._file(file, ".py")
         if function not in _driver_names(path):
             raise SetupError(
-                f"{path.name} has no driver {function!r}; {suggest(function, _driver_names(path))}"
+                _(
+                    "{file} has no driver {name!r}; {hint}",
+                    file=path.name,
+                    name=function,
+                    hint=suggest(function, _driver_names(path)),
+                )
             )
         driver = _run(path)[function]
         controller = driver() if isinstance(driver, type) else driver
@@ -155,8 +161,13 @@ class DriverRegistry:
         known = {path.name: path for path in self._files(ending)}
         if name not in known:
             raise SetupError(
-                f"no {ending} file {name!r} is offered here; {suggest(name, known)}; files are "
-                "offered that were named when the world was started (--offer FILE or FOLDER)"
+                _(
+                    "no {ending} file {name!r} is offered here; {hint}; files are offered that "
+                    "were named when the world was started (--offer FILE or FOLDER)",
+                    ending=ending,
+                    name=name,
+                    hint=suggest(name, known),
+                )
             )
         return known[name]
 
@@ -164,11 +175,15 @@ class DriverRegistry:
 def _checked(place: Path) -> Path:
     if place.is_dir() or (place.is_file() and place.suffix in ENDINGS):
         return place
-    got = "another kind of file" if place.exists() else "nothing there"
+    got = _("another kind of file") if place.exists() else _("nothing there")
     raise SetupError(
-        f"--offer {place}: expected a Python file (.py), a recorded episode (.episode), a network "
-        "(.onnx), a folder of such files, or an AI4U script's address (ai4u://HOST:PORT), got "
-        f"{got}"
+        _(
+            "--offer {place}: expected a Python file (.py), a recorded episode (.episode), a "
+            "network (.onnx), a folder of such files, or an AI4U script's address "
+            "(ai4u://HOST:PORT), got {got}",
+            place=str(place),
+            got=got,
+        )
     )
 
 
@@ -179,7 +194,7 @@ def _run(path: Path) -> dict[str, Any]:
         SetupError: it can't be run, or gives a block the name of a built-in one.
     """
     before = dict(Block.types)
-    problem = ""
+    problem: str = ""
     names: dict[str, Any] = {}
     try:
         names = runpy.run_path(str(path))
@@ -189,15 +204,22 @@ def _run(path: Path) -> dict[str, Any]:
             for frame in traceback.extract_tb(error.__traceback__)
             if frame.filename == str(path)
         ]
-        line = f", line {lines[-1]}" if lines else ""
-        problem = f"{path.name}{line}: {type(error).__name__}: {error}"
+        place = path.name
+        if lines:
+            place = _("{file}, line {line}", file=path.name, line=str(lines[-1]))
+        fault = f"{type(error).__name__}: {error}"
+        problem = _("{place}: {problem}", place=place, problem=fault)
     taken = [
         name
         for name, cls in Block.types.items()
         if before.get(name, cls) is not cls and is_built_in(before[name])
     ]
     if taken:
-        problem = f"{path.name}: {taken[0]} is the name of a built-in block; expected another name"
+        problem = _(
+            "{file}: {name} is the name of a built-in block; expected another name",
+            file=path.name,
+            name=taken[0],
+        )
     if problem:
         Block.types.clear()
         Block.types.update(before)
@@ -234,7 +256,7 @@ def _replay_brain(episode: Episode, recorded: str, agent_id: str) -> Brain:
     """Make a brain that repeats a recorded agent's actions; it starts again at each reset."""
     record = episode.agent(recorded or (agent_id if agent_id in episode.ids else None))
     if not len(record):
-        raise SetupError(f"agent {record.id!r} took no decision in this recording")
+        raise SetupError(_("agent {agent!r} took no decision in this recording", agent=record.id))
     actions: list[Mapping[str, Any]] = [decision.action for decision in record]
     first = record[0]
     controller = ReplayController(actions=[dict(each) for each in actions])

@@ -3,9 +3,10 @@
 from typing import Any
 
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.base.errors import AI4UError, WorldError
-from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.base.errors import AI4UError, WorldError, text_of
+from ai4u_edu.base.parameters import ParameterProblem, format_path
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
 from ai4u_edu.page.editing.state import EditState
@@ -43,14 +44,19 @@ def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> Contr
     except PlainDataError as error:
         raise ChangeError([relative_to(path, each) for each in error.problems]) from None
     except WorldError as error:
-        problem = ParameterProblem(description.where_is(error.thing), f"where all begin, {error}")
+        text = _("where all begin, {problem}", problem=text_of(error))
+        problem = ParameterProblem(description.where_is(error.thing), text)
         raise ChangeError([relative_to(path, problem)]) from None
     except AI4UError as error:
         changed = _at(description.agents, path[1:]) if path else None
         field = field_named_in(str(error), changed)
-        raise ChangeError([ParameterProblem(field, str(error))]) from None
+        raise ChangeError([ParameterProblem(field, text_of(error))]) from None
     except (ArithmeticError, MemoryError) as error:
-        text = f"it can't be set up: {type(error).__name__}: {error}"
+        text = _(
+            "it can't be set up: {error}: {problem}",
+            error=type(error).__name__,
+            problem=str(error),
+        )
         raise ChangeError([ParameterProblem((), text)]) from error
     return sim
 
@@ -59,7 +65,10 @@ def relative_to(path: BlockPath, problem: ParameterProblem) -> ParameterProblem:
     """Return a problem with a relative path; one that lies elsewhere has its path in its text."""
     if problem.path[: len(path)] == path:
         return ParameterProblem(problem.path[len(path) :], problem.text)
-    return ParameterProblem((), str(problem))
+    place = format_path(problem.path)
+    return ParameterProblem(
+        (), _("{place}: {problem}", place=place, problem=problem.text) if place else problem.text
+    )
 
 
 def _at(data: Any, path: BlockPath) -> Any:

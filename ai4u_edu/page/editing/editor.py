@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 from ai4u_edu.base.errors import AI4UError, SetupError, shown
 from ai4u_edu.blocks import Brain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import blocks, proposals, things
 from ai4u_edu.page.editing.autosave import Autosave
 from ai4u_edu.page.editing.change_result import ChangeResult, failed
@@ -248,7 +249,10 @@ class SceneEditor:
             values: parameters as plain data; None resets one to its default.
         """
         return self._change_block(
-            agent_id, path, "change", lambda a: blocks.changed(a, path, values)
+            agent_id,
+            path,
+            lambda block: _("change {block}", block=block),
+            lambda a: blocks.changed(a, path, values),
         )
 
     def add_block(
@@ -267,16 +271,32 @@ class SceneEditor:
 
     def remove_block(self, agent_id: str, path: BlockPath) -> "Future[ChangeResult]":
         """Remove a block."""
-        return self._change_block(agent_id, path, "remove", lambda a: blocks.removed(a, path))
+        return self._change_block(
+            agent_id,
+            path,
+            lambda block: _("remove {block}", block=block),
+            lambda a: blocks.removed(a, path),
+        )
 
     def move_block(self, agent_id: str, path: BlockPath, by: int) -> "Future[ChangeResult]":
         """Move a block up (-1) or down (1) among the blocks of its kind."""
-        return self._change_block(agent_id, path, "move", lambda a: blocks.moved(a, path, by))
+        return self._change_block(
+            agent_id,
+            path,
+            lambda block: _("move {block}", block=block),
+            lambda a: blocks.moved(a, path, by),
+        )
 
     def switch_block(self, agent_id: str, path: BlockPath, on: bool) -> "Future[ChangeResult]":
         """Enable or disable a block; enabling a brain disables the others."""
-        verb = "switch on" if on else "switch off"
-        return self._change_block(agent_id, path, verb, lambda a: blocks.with_enabled(a, path, on))
+        return self._change_block(
+            agent_id,
+            path,
+            lambda block: (
+                _("switch on {block}", block=block) if on else _("switch off {block}", block=block)
+            ),
+            lambda a: blocks.with_enabled(a, path, on),
+        )
 
     def change_agent(self, agent_id: str, values: Plain) -> "Future[ChangeResult]":
         """Change parameters of an agent itself, such as ``max_steps_per_episode``.
@@ -303,7 +323,7 @@ class SceneEditor:
 
     def restore_driver(self, agent_id: str) -> "Future[ChangeResult]":
         """Hand an agent back from a person, a script or another brain to the scene's driver."""
-        return self._submit(lambda: Proposal(self.state, "drive again"), driver_of=agent_id)
+        return self._submit(lambda: Proposal(self.state, _("drive again")), driver_of=agent_id)
 
     def drag(
         self, name: str, x: float, y: float, heading_deg: float | None = None
@@ -439,7 +459,7 @@ class SceneEditor:
     def open(self, scene: Scene) -> "Future[ChangeResult]":
         """Run another scene in place of this one; undo brings this one back."""
         state = EditState(scene.description, scene.folder, source=scene.source)
-        proposal = Proposal(state, f"open {scene.description.name}")
+        proposal = Proposal(state, _("open {scene}", scene=scene.description.name))
         return self._submit(lambda: proposal, whole=True)
 
     def load(self, text: object, name: str = "scene.yaml") -> "Future[ChangeResult]":
@@ -459,7 +479,7 @@ class SceneEditor:
             AI4UError: it can't be used here.
         """
         if not isinstance(text, str):
-            raise SetupError(f"expected a scene as text (YAML), got {shown(text)}")
+            raise SetupError(_("expected a scene as text (YAML), got {value}", value=shown(text)))
         agents = YamlFile(text, name).data.get("agents", ())
         self._transactions.permissions.check(agents)
         return Scene.loads(text, name=name, folder=self.state.folder)
@@ -473,10 +493,14 @@ class SceneEditor:
         return self._runner.submit(self._transactions.redo)
 
     def _change_block(
-        self, agent_id: str, path: BlockPath, verb: str, change: Callable[[Plain], Plain]
+        self,
+        agent_id: str,
+        path: BlockPath,
+        label: Callable[[str], str],
+        change: Callable[[Plain], Plain],
     ) -> "Future[ChangeResult]":
         return self._submit(
-            lambda: proposals.change_block(self.state, agent_id, path, verb, change)
+            lambda: proposals.change_block(self.state, agent_id, path, label, change)
         )
 
     def _on_change(self, state: EditState) -> None:
@@ -515,7 +539,7 @@ class Recovery:
         """Open the unsaved scene that is offered."""
         unsaved, self.unsaved = self.unsaved, None
         if unsaved is None:
-            return failed(SetupError("there is no unsaved scene"))
+            return failed(SetupError(_("there is no unsaved scene")))
         try:
             scene = unsaved.scene()
         except AI4UError as error:

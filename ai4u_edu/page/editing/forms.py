@@ -2,25 +2,40 @@
 
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from inspect import get_annotations
 from typing import Any, Literal, get_args
 
-from ai4u_edu.base.errors import SceneError, suggest
+from ai4u_edu.base.errors import suggest, text_of
 from ai4u_edu.base.parameters import ParameterProblem, is_open
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.blocks import KINDS
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import Plain
 from ai4u_edu.page.editing.scene_names import SceneNames
-from ai4u_edu.scenes.yaml.file import YamlFile
+from ai4u_edu.scenes.yaml.tree import NotYamlError, read_tree
 
 Kind = Literal["number", "whole", "switch", "choice", "text", "data"]
 BASES = (Sensor, Actuator, RewardFunc, Brain, Controller)
 SWITCHES = {"is_active", "enabled"}
 """Parameters that are not in a form; a page has a button for them."""
-NONE_LABEL = "(none)"
+NONE_LABEL = _("(none)")
+UNITS: Mapping[str, str] = {
+    "deg": _("deg"),
+    "decisions": _("decisions"),
+    "the reading's": _("the reading's"),
+}
+"""Units that are words; symbols such as m/s are the same everywhere."""
+LIMITS: Mapping[str, Callable[[str], str]] = {
+    "minimum": lambda bound: _("at least {bound}", bound=bound),
+    "exclusiveMinimum": lambda bound: _("more than {bound}", bound=bound),
+    "maximum": lambda bound: _("at most {bound}", bound=bound),
+    "exclusiveMaximum": lambda bound: _("less than {bound}", bound=bound),
+}
+"""Bounds in words, by their names in a JSON Schema."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +50,7 @@ class ParameterField:
     hint: str
     """Meaning of the parameter, in the words of its class."""
     choices: tuple[Any, ...] = ()
+    """Values to choose from; those that are shown in other words in other languages are texts."""
     is_common: bool = False
     """True if every block of the kind has it; such fields come last."""
     unit: str = ""
@@ -45,6 +61,8 @@ class ParameterField:
     """Upper bound, likewise."""
     limits: str = ""
     """The range in words; empty if there is none."""
+    note: str = ""
+    """A sentence to add to the hint; usually empty."""
 
     @property
     def shown(self) -> str:
@@ -66,9 +84,8 @@ class ParameterField:
         if self.kind == "switch":
             return bool(entered)
         if self.kind == "choice":
-            return {**{str(each): each for each in self.choices}, NONE_LABEL: None}.get(
-                entered, entered
-            )
+            known = {str(each): _plain_choice(each) for each in self.choices}
+            return {**known, NONE_LABEL: None}.get(entered, entered)
         if isinstance(entered, str) and not entered.strip():
             return None
         if self.kind in {"number", "whole"}:
@@ -92,7 +109,8 @@ def read_values(fields: Iterable[ParameterField], entered: Mapping[str, Any]) ->
     for name, value in entered.items():
         field = known.get(name)
         if field is None:
-            problems.append(ParameterProblem((name,), f"expected a field, {suggest(name, known)}"))
+            text = _("expected a field, {hint}", hint=suggest(name, known))
+            problems.append(ParameterProblem((name,), text))
             continue
         try:
             read = field.read(value) if isinstance(value, str | bool) else value
@@ -163,9 +181,12 @@ def field_of(
     what = {**about, **options[0]} if options else dict(about)
     unit = str(what.get("unit", ""))
     is_number = what.get("type") in {"number", "integer"}
-    words = name.replace("_", " ")
-    label = f"{words} ({unit})" if is_number and unit not in {"", "1"} else words
-    hint = str(about.get("description", "")).rstrip(".").replace("``", "")
+    label: str = Text(name.replace("_", " "))
+    if is_number and unit not in {"", "1"}:
+        label = with_unit(label, unit)
+    # the whole text, which may be one to translate
+    hint = about.get("description", "")
+    hint = hint if isinstance(hint, Text) else Text(str(hint))
     choices: tuple[Any, ...] = ()
     kind: Kind = "text"
     if "enum" in what:
@@ -190,11 +211,20 @@ def field_of(
         hint,
         choices,
         is_common,
-        unit if is_number and unit != "1" else "",
+        UNITS.get(unit, unit) if is_number and unit != "1" else "",
         low,
         high,
         _range(what),
     )
+
+
+def with_unit(label: str, unit: str) -> str:
+    """Return a label with the unit of its field."""
+    return _("{label} ({unit})", label=label, unit=UNITS.get(unit, unit))
+
+
+def _plain_choice(choice: Any) -> Any:
+    return str(choice) if isinstance(choice, Text) else choice
 
 
 def _bound(what: Mapping[str, Any], end: str) -> float | None:
@@ -209,17 +239,15 @@ def _bound(what: Mapping[str, Any], end: str) -> float | None:
 
 def _range(what: Mapping[str, Any]) -> str:
     words = [
-        f"{word} {what[key]:g}"
-        for key, word in (
-            ("minimum", "at least"),
-            ("exclusiveMinimum", "more than"),
-            ("maximum", "at most"),
-            ("exclusiveMaximum", "less than"),
-        )
+        words_for(f"{what[key]:g}")
+        for key, words_for in LIMITS.items()
         if key in what and not is_open(what[key])
     ]
-    unit = what.get("unit", "")
-    return " ".join((", ".join(words), unit if words and unit != "1" else "")).strip()
+    unit = str(what.get("unit", ""))
+    bounds = join(words, ", ")
+    if not words or unit in {"", "1"}:
+        return bounds
+    return _("{bounds} {unit}", bounds=bounds, unit=UNITS.get(unit, unit))
 
 
 def _holds_blocks(cls: type[Block], name: str) -> bool:
@@ -259,8 +287,12 @@ def _word(value: Any) -> str:
 def _data(name: str, entered: str) -> Any:
     text = entered.strip()
     try:
-        return YamlFile(f"x: {text}", name).data["x"]
-    except SceneError as error:
-        told = str(error).partition("\n")[0].split(": ", 1)[-1]
-        example = "[1, 2] for a list, {name: 1} for a mapping"
-        raise ChangeError([ParameterProblem((name,), f"{told}; write {example}")]) from None
+        return read_tree(f"x: {text}").data["x"]
+    except NotYamlError as error:
+        told = _(
+            "{problem}; write {list} for a list, {mapping} for a mapping",
+            problem=text_of(error),
+            list="[1, 2]",
+            mapping="{name: 1}",
+        )
+        raise ChangeError([ParameterProblem((name,), told)]) from None

@@ -6,6 +6,8 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from ai4u_edu.blocks import Block
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.plain import Plain
 from ai4u_edu.page.editing.scene_pictures import EMPTY_SCENE, TEMPLATES
 from ai4u_edu.page.editing.state import EditState, reward_names
@@ -25,16 +27,16 @@ class GoalKind(NamedTuple):
 
 
 KINDS = {
-    "TouchRewardFunc": GoalKind({"reward": GOAL_REWARD}, "Reach {target}."),
-    "BodyInAreaRewardFunc": GoalKind({"reward": GOAL_REWARD}, "Bring {thing} into {area}."),
-    "ParkedRewardFunc": GoalKind({"reward": GOAL_REWARD}, "Park in {area}."),
+    "TouchRewardFunc": GoalKind({"reward": GOAL_REWARD}, _("Reach {target}.")),
+    "BodyInAreaRewardFunc": GoalKind({"reward": GOAL_REWARD}, _("Bring {thing} into {area}.")),
+    "ParkedRewardFunc": GoalKind({"reward": GOAL_REWARD}, _("Park in {area}.")),
     "CheckpointsReward": GoalKind(
-        {"reward": 0.0, "lap_reward": GOAL_REWARD}, "Touch in this order: {targets}."
+        {"reward": 0.0, "lap_reward": GOAL_REWARD}, _("Touch in this order: {targets}.")
     ),
     "GoneReward": GoalKind(
-        {"reward": GOAL_REWARD, "only_last": True}, "Make all of the group {group} disappear."
+        {"reward": GOAL_REWARD, "only_last": True}, _("Make all of the group {group} disappear.")
     ),
-    "TargetFallReward": GoalKind({"success_reward": GOAL_REWARD}, "Make {target} fall."),
+    "TargetFallReward": GoalKind({"success_reward": GOAL_REWARD}, _("Make {target} fall.")),
 }
 """Kinds of goals by the type of their reward."""
 
@@ -67,14 +69,14 @@ def with_goal(before: EditState, after: EditState) -> EditState:
         new = new.model_copy(update={"success": goal.name})
     was, is_now = goal_sentence(old), goal_sentence(new)
     if was != is_now and new.goal == old.goal and old.goal in {"", no_goal(), was}:
-        new = new.model_copy(update={"goal": is_now or no_goal()})
+        new = new.model_copy(update={"goal": str(is_now or no_goal())})
     return after if new is after.description else replace(after, description=new)
 
 
 def goal_sentence(scene: SceneDescription) -> str:
     """Return the goal of a scene in words; empty if none of its rewards stands for one."""
     goal = _goal_reward(scene)
-    return "" if goal is None else KINDS[str(goal.reward["type"])].sentence.format(**goal.words)
+    return "" if goal is None else Text(KINDS[str(goal.reward["type"])].sentence, goal.words)
 
 
 @cache
@@ -122,6 +124,6 @@ def _words(value: Any) -> str:
     ('the red box', 'Bob', '1, 2')
     """
     if isinstance(value, list | tuple):
-        return ", ".join(_words(each) for each in value)
+        return join([_words(each) for each in value], ", ")
     text = str(value).replace("_", " ")
-    return f"the {text}" if text.islower() else text
+    return _("the {name}", name=text) if text.islower() else text

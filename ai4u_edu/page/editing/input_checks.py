@@ -15,6 +15,7 @@ from ai4u_edu.base.errors import MAX_SHOWN_CHARS, shown
 from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.parameterized import Parameterized
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
 from ai4u_edu.scenes.serialization import PlainDataError
@@ -51,16 +52,27 @@ def check_number(value: Any, what: str, largest: float) -> None:
     """
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and isinstance(value, float) and not math.isfinite(value):
-        raise ChangeError([ParameterProblem((what,), f"expected finite numbers, got {value}")])
+        text = _("expected finite numbers, got {value}", value=str(value))
+        raise ChangeError([ParameterProblem((what,), text)])
     if not is_number or abs(value) > largest:
-        text = f"expected a number from {-largest:g} to {largest:g}, got {shown(value)}"
+        text = _(
+            "expected a number from {low} to {high}, got {value}",
+            low=f"{-largest:g}",
+            high=f"{largest:g}",
+            value=shown(value),
+        )
         raise ChangeError([ParameterProblem((what,), text)])
 
 
 def check_name(value: Any, what: str) -> None:
     """Raise a ChangeError unless a value is a text short enough for a name."""
     if not isinstance(value, str) or len(value) > MAX_NAME_CHARS:
-        text = f"expected {what} of at most {MAX_NAME_CHARS} characters, got {shown(value)}"
+        text = _(
+            "expected {what} of at most {most} characters, got {value}",
+            what=what,
+            most=MAX_NAME_CHARS,
+            value=shown(value),
+        )
         raise ChangeError([ParameterProblem((), text)])
 
 
@@ -121,26 +133,32 @@ def _not_plain(values: Any) -> Iterator[ParameterProblem]:
         count += 1
         if len(path) > MAX_DEPTH or count > MAX_VALUES:
             yield ParameterProblem(
-                path[:1], "expected less: it is nested too deep, or has too many values"
+                path[:1], _("expected less: it is nested too deep, or has too many values")
             )
             return
         if isinstance(value, str):
             most = MAX_PICTURE_CHARS if value.startswith("data:image/") else MAX_TEXT_CHARS
             if len(value) > most:
-                yield ParameterProblem(path, f"expected at most {most} characters")
+                yield ParameterProblem(path, _("expected at most {most} characters", most=most))
             elif not value.isprintable() and any("\ud800" <= char <= "\udfff" for char in value):
-                yield ParameterProblem(path, f"expected text, got {shown(value)}")
+                yield ParameterProblem(path, _("expected text, got {value}", value=shown(value)))
         elif isinstance(value, int) and value.bit_length() > 64:
-            yield ParameterProblem(path, "expected a number of at most 64 bits, got a larger one")
+            yield ParameterProblem(
+                path, _("expected a number of at most 64 bits, got a larger one")
+            )
         elif isinstance(value, Mapping):
             for key, each in value.items():
                 if not isinstance(key, str | int):
-                    yield ParameterProblem(path, f"expected names as keys, got {shown(key)}")
+                    text = _("expected names as keys, got {key}", key=shown(key))
+                    yield ParameterProblem(path, text)
                 waiting.append(((*path, str(key)[:MAX_SHOWN_CHARS]), each))
         elif isinstance(value, list | tuple):
             waiting += [((*path, index), each) for index, each in enumerate(value)]
         elif not (value is None or isinstance(value, bool | int | float | BaseModel)):
-            text = f"expected plain data (numbers, text, lists, mappings), got {shown(value)}"
+            text = _(
+                "expected plain data (numbers, text, lists, mappings), got {value}",
+                value=shown(value),
+            )
             yield ParameterProblem(path, text)
 
 
@@ -151,10 +169,11 @@ def _type_problems(
     types = {str(each.get("type", "")) for each in schemas}
     if isinstance(value, bool | str):
         is_other = "" in types or ("boolean" if isinstance(value, bool) else "string") in types
-        numbers = {"number": "a number", "integer": "a whole number"}
-        wanted = [words for name, words in numbers.items() if name in types]
-        if wanted and not is_other:
-            yield ParameterProblem(path, f"expected {wanted[0]}, got {shown(value)}")
+        got = shown(value)
+        if "number" in types and not is_other:
+            yield ParameterProblem(path, _("expected a number, got {value}", value=got))
+        elif "integer" in types and not is_other:
+            yield ParameterProblem(path, _("expected a whole number, got {value}", value=got))
     elif isinstance(value, Mapping):
         if value.get("type") in Block.types:  # the enclosing schema has the base class only
             schema = schema_of(Block.types[value["type"]])

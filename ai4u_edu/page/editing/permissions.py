@@ -6,6 +6,7 @@ from typing import Any
 
 from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
 
@@ -40,14 +41,17 @@ class Permissions:
 
 def _fault(name: str, value: str) -> str:
     if name == "host" and value not in LOCAL_HOSTS:
-        return (
-            f"a page can't have this machine connect to {value!r}; expected 127.0.0.1, or start "
-            "the world with --brain ai4u://..."
+        return _(
+            "a page can't have this machine connect to {host!r}; expected 127.0.0.1, or start "
+            "the world with --brain ai4u://...",
+            host=value,
         )
     path = PurePath(value)
     outside = path.is_absolute() or ".." in path.parts or "\\" in value or ":" in value
     if name == "model_path" and outside and not value.startswith(ZOO_PREFIX):
-        return f"expected zoo:SCENE, or a file that lies beside the scene, got {value!r}"
+        return _(
+            "expected zoo:SCENE, or a file that lies beside the scene, got {value!r}", value=value
+        )
     return ""
 
 

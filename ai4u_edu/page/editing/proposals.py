@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 
 from ai4u_edu.base.parameters import ParameterProblem
 from ai4u_edu.blocks import Block
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.page.editing import blocks, settings, things
 from ai4u_edu.page.editing.driver_options import with_driver
 from ai4u_edu.page.editing.drivers import DriverRegistry
@@ -52,12 +54,24 @@ class NewThing(NamedTuple):
 
 
 def change_block(
-    state: EditState, agent_id: str, path: BlockPath, verb: str, change: Callable[[Plain], Plain]
+    state: EditState,
+    agent_id: str,
+    path: BlockPath,
+    label: Callable[[str], str],
+    change: Callable[[Plain], Plain],
 ) -> Proposal:
-    """Propose another agent, in which one block was changed."""
+    """Propose another agent, in which one block was changed.
+
+    Args:
+        state: the present state.
+        agent_id: the agent that has the block.
+        path: of the block in its agent.
+        label: returns a few words for the undo button, of the block's type.
+        change: changes the agent.
+    """
     agent = state.agent(agent_id)
-    label = f"{verb} {blocks.block_at(agent, path)['type']}"
-    return Proposal(state.with_agent(agent_id, change(agent)), label, _path(state, agent_id, path))
+    words = label(str(blocks.block_at(agent, path)["type"]))
+    return Proposal(state.with_agent(agent_id, change(agent)), words, _path(state, agent_id, path))
 
 
 def add_block(
@@ -69,14 +83,16 @@ def add_block(
     if parent == ("brains",) and len(agent["brains"]) > 1 and block.get("enabled", True):
         agent = blocks.with_enabled(agent, path, True)
     state = state.with_agent(agent_id, agent)
-    return Proposal(state, f"add {block['type']}", _path(state, agent_id, path))
+    label = _("add {block}", block=str(block["type"]))
+    return Proposal(state, label, _path(state, agent_id, path))
 
 
 def change_agent(state: EditState, agent_id: str, values: Plain) -> Proposal:
     """Propose other parameters of an agent."""
     agent = settings.with_agent_settings(state.agent(agent_id), values)
     path = _path(state, agent_id, ())
-    return Proposal(state.with_agent(agent_id, agent), f"change agent {agent_id}", path)
+    label = _("change agent {agent}", agent=agent_id)
+    return Proposal(state.with_agent(agent_id, agent), label, path)
 
 
 def scale_rewards(state: EditState, agent_id: str, factors: Mapping[str, float]) -> Proposal:
@@ -89,29 +105,33 @@ def scale_rewards(state: EditState, agent_id: str, factors: Mapping[str, float])
     names = reward_names(agent)
     for name, factor in factors.items():
         if name not in names:
-            raise ChangeError([ParameterProblem((), f"there is no reward {name!r}")])
+            raise ChangeError([ParameterProblem((), _("there is no reward {name!r}", name=name))])
         path: BlockPath = ("rewards", names.index(name))
         block = blocks.block_at(agent, path)
         amounts = _amounts(block)
         if not amounts:
-            raise ChangeError(
-                [ParameterProblem((), f"{name} has no amount here; change it in its own code")]
-            )
+            text = _("{name} has no amount here; change it in its own code", name=name)
+            raise ChangeError([ParameterProblem((), text)])
         if factor == 0.0 and block.get("cause_episode_to_end"):
-            text = f"{name} also ends the episode, which it does not if it pays 0; choose a factor"
-            raise ChangeError([ParameterProblem((), f"{text} such as 0.01")])
+            text = _(
+                "{name} also ends the episode, which it does not if it pays 0; choose a factor "
+                "such as 0.01",
+                name=name,
+            )
+            raise ChangeError([ParameterProblem((), text)])
         values = {each: float(f"{factor * amount:.12g}") for each, amount in amounts.items()}
         agent = blocks.changed(agent, path, values)
     path = _path(state, agent_id, ())
-    return Proposal(state.with_agent(agent_id, agent), "change the rewards", path)
+    return Proposal(state.with_agent(agent_id, agent), _("change the rewards"), path)
 
 
 def set_driver(state: EditState, agent_id: str, name: str, drivers: DriverRegistry) -> Proposal:
     """Propose another driver of an agent."""
-    check_name(name, "the name of a driver")
+    check_name(name, _("the name of a driver"))
     driven = with_driver(state, agent_id, name, drivers)
     path = _path(driven, agent_id, ("brains",))
-    return Proposal(driven, f"{agent_id}: driven by {name}", path)
+    label = _("{agent}: driven by {driver}", agent=agent_id, driver=name)
+    return Proposal(driven, label, path)
 
 
 def move_body(
@@ -125,13 +145,14 @@ def move_body(
     """Propose another pose of a thing; without a heading it keeps its present one."""
     things.check_place(x, y, heading_deg)
     thing, path = things.thing_named(state, name), state.description.where_is(name)
+    label = _("move {name}", name=name)
     if things.kind_of(thing) != "bodies":
         degrees = thing.heading_deg if heading_deg is None else heading_deg
-        return Proposal(things.with_pose(state, name, x, y, degrees), f"move {name}", path)
+        return Proposal(things.with_pose(state, name, x, y, degrees), label, path)
     degrees = math.degrees(pose_of(name)[2]) if heading_deg is None else heading_deg
     moved = things.with_pose(state, name, x, y, degrees)
     pose = (x, y, math.radians(degrees))
-    return Proposal(moved, f"move {name}", path, {name: pose})
+    return Proposal(moved, label, path, {name: pose})
 
 
 def move_things(
@@ -145,7 +166,8 @@ def move_things(
         poses |= proposal.poses
     if len(goals) == 1:
         return proposal
-    return Proposal(proposal.state, f"move {len(goals)} things", poses=poses)
+    label = ngettext("move {n} thing", "move {n} things", len(goals))
+    return Proposal(proposal.state, label, poses=poses)
 
 
 def add_things(state: EditState, new_things: Sequence[NewThing]) -> Proposal:
@@ -159,7 +181,8 @@ def add_things(state: EditState, new_things: Sequence[NewThing]) -> Proposal:
         restarts = restarts or proposal.restarts
     if len(new_things) == 1:
         return proposal
-    return Proposal(proposal.state, f"add {len(new_things)} things", restarts=restarts)
+    label = ngettext("add {n} thing", "add {n} things", len(new_things))
+    return Proposal(proposal.state, label, restarts=restarts)
 
 
 def remove_things(state: EditState, names: Sequence[str]) -> Proposal:
@@ -174,7 +197,8 @@ def remove_things(state: EditState, names: Sequence[str]) -> Proposal:
         restarts = restarts or proposal.restarts
     if len(names) == 1:
         return proposal
-    return Proposal(proposal.state, f"remove {len(names)} things", restarts=restarts)
+    label = ngettext("remove {n} thing", "remove {n} things", len(names))
+    return Proposal(proposal.state, label, restarts=restarts)
 
 
 def add_thing(
@@ -183,19 +207,21 @@ def add_thing(
     """Propose another body, floor or area."""
     thing = things.checked_description(given, kind)
     path = (kind, len(getattr(state.description, kind)))
-    return Proposal(things.with_thing(state, thing), f"add {thing.name}", path)
+    return Proposal(things.with_thing(state, thing), _("add {name}", name=thing.name), path)
 
 
 def remove_thing(state: EditState, name: str) -> Proposal:
     """Propose the scene without a body, a floor or an area."""
-    return Proposal(things.without_thing(state, name), f"remove {name}")
+    return Proposal(things.without_thing(state, name), _("remove {name}", name=name))
 
 
 def change_thing(state: EditState, name: str, values: Mapping[str, Any]) -> Proposal:
     """Propose other parameters of a body, a floor or an area."""
     path = state.description.where_is(name)
-    verb = "resize" if set(values) == {"shape"} else "change"
-    return Proposal(things.with_changed_thing(state, name, values), f"{verb} {name}", path)
+    label = _("change {name}", name=name)
+    if set(values) == {"shape"}:
+        label = _("resize {name}", name=name)
+    return Proposal(things.with_changed_thing(state, name, values), label, path)
 
 
 def resize_thing(
@@ -218,13 +244,14 @@ def add_agent(state: EditState, body: Mapping[str, Any], like: str) -> Proposal:
     added = things.with_thing(state, things.checked_description(body))
     agent = _copy_of(state.agent(like), state, str(body["name"]))
     proposed = added.describing(agents=(*state.description.agents, agent))
-    return Proposal(proposed, f"add {body['name']}", restarts=True)
+    return Proposal(proposed, _("add {name}", name=str(body["name"])), restarts=True)
 
 
 def remove_agent(state: EditState, agent_id: str) -> Proposal:
     """Propose the scene without an agent and its body."""
     name = str(state.agent(agent_id)["body"])
-    return Proposal(_without_agent(state, agent_id), f"remove {name}", restarts=True)
+    label = _("remove {name}", name=name)
+    return Proposal(_without_agent(state, agent_id), label, restarts=True)
 
 
 def change_scene(state: EditState, values: Mapping[str, Any]) -> Proposal:
@@ -232,19 +259,19 @@ def change_scene(state: EditState, values: Mapping[str, Any]) -> Proposal:
     check_plain(values)
     plain = {**state.scene.plain(), **values}
     scene = Scene.loads(write_yaml(plain), folder=state.folder)
-    return Proposal(replace(state, description=scene.description), "change the scene")
+    return Proposal(replace(state, description=scene.description), _("change the scene"))
 
 
 def change_settings(state: EditState, values: Plain) -> Proposal:
     """Propose another title or goal of the scene, or other settings of its world."""
     description = settings.with_scene_settings(state.description, values)
-    return Proposal(replace(state, description=description), "change the scene")
+    return Proposal(replace(state, description=description), _("change the scene"))
 
 
 def change_field(state: EditState, values: Plain) -> Proposal:
     """Propose another generated field, which is there at once, in a new episode."""
     description = settings.with_field(state.description, values)
-    return Proposal(replace(state, description=description), "change the field", restarts=True)
+    return Proposal(replace(state, description=description), _("change the field"), restarts=True)
 
 
 def _amounts(reward: Plain) -> dict[str, float]:
@@ -284,6 +311,6 @@ def _without_agent(state: EditState, agent_id: str) -> EditState:
     agents = state.description.agents
     others = (*agents[:index], *agents[index + 1 :])
     if not others:
-        raise ChangeError([ParameterProblem((), "it is the only agent; a scene needs one")])
+        raise ChangeError([ParameterProblem((), _("it is the only agent; a scene needs one"))])
     without = state.driven(agent_id, "").describing(agents=others)
     return things.without_thing(without, str(agents[index]["body"]))

@@ -2,8 +2,9 @@
 
 import re
 
-from ai4u_edu.base.errors import ActionError, AI4UError
-from ai4u_edu.locale import sentence
+from ai4u_edu.base.errors import ActionError, AI4UError, text_of
+from ai4u_edu.locale import Text, sentence
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.driver_options import KEYS, OWN_BRAIN, with_driver
 from ai4u_edu.page.editing.drivers import NETWORK, DriverRegistry
 from ai4u_edu.page.editing.dry_run import IdleBrain, dry_run
@@ -14,14 +15,13 @@ from ai4u_edu.page.editing.suggestion import suggest_block
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import PlainDataError
 
-_ADD_FIRST = "Add one in the World tab first."
 _BY_FIELD = {
-    "area": f"It needs an area. {_ADD_FIRST}",
-    "target": f"It needs something to refer to. {_ADD_FIRST}",
-    "thing": f"It needs something to refer to. {_ADD_FIRST}",
-    "targets": f"It needs something to refer to. {_ADD_FIRST}",
-    "reference": f"It needs something to refer to. {_ADD_FIRST}",
-    "source": 'It needs the reward "Feel better" first.',
+    "area": _("It needs an area. Add one in the World tab first."),
+    **dict.fromkeys(
+        ("target", "thing", "targets", "reference"),
+        _("It needs something to refer to. Add one in the World tab first."),
+    ),
+    "source": _('It needs the reward "Feel better" first.'),
 }
 """Sentences about parameters for which a scene has no value, by the parameter's name."""
 _NO_AREA, _NO_NEEDS = "no area carries", "no HomeostaticReward is called"
@@ -90,25 +90,34 @@ def _is_local(state: EditState, agent_id: str) -> bool:
 
 def _own_fault(error: Exception) -> str:
     """Return an error of a block's own code as a sentence."""
-    return f"Its code raised {type(error).__name__}: {error!s:.200}."
+    fault = f"{type(error).__name__}: {error!s:.200}"
+    return _("Its code raised {error}.", error=fault)
 
 
 def _sentence(error: AI4UError) -> str:
     """Return an error as a short sentence for people who don't know parameters' names."""
-    text = str(error)
+    text = text_of(error)
     if isinstance(error, ActionError):
-        return "Its actions don't fit this agent's actuators."
+        return _("Its actions don't fit this agent's actuators.")
     if missing := re.search(r"no sensor has the (?:perception_)?key '([^']*)'", text):
-        return f"Not for this robot: it needs a sensor with the name {missing[1]}."
+        return _("It needs a sensor with the name {name}.", name=missing[1])
     if "does not fit agent" in text:
-        return "It was trained with other sensors or actuators."
+        return _("It was trained with other sensors or actuators.")
     if isinstance(error, ChangeError | PlainDataError) and error.problems:
         problem = error.problems[0]
         field = str(problem.path[-1]) if problem.path else ""
         if _NO_AREA in text or _NO_NEEDS in text or problem.text.startswith("is missing"):
             known = {_NO_AREA: "area", _NO_NEEDS: "source"}
             field = next((name for part, name in known.items() if part in text), field)
-            return _BY_FIELD.get(field, f"It needs a value for {field}.")
+            return _BY_FIELD.get(field, _("It needs a value for {name}.", name=field))
         text = problem.text
-    text = text.removeprefix("agent ").partition(": ")[2] or text
-    return sentence(text)
+    return sentence(_without_place(text))
+
+
+def _without_place(text: str) -> str:
+    """Return a problem without the place before it, such as "agent '0', sensor 'eyes': "."""
+    if not isinstance(text, Text):
+        return text.removeprefix("agent ").partition(": ")[2] or text
+    named = re.fullmatch(r".*\{\w+\}: \{(\w+)\}", text.msgid)
+    place = text.values.get(named[1]) if named else None
+    return place if isinstance(place, str) else text

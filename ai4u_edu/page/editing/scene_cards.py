@@ -4,7 +4,8 @@ import base64
 from functools import lru_cache
 from typing import NamedTuple
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.scene_pictures import scene_picture
 from ai4u_edu.page.editing.scene_store import MAX_SCENES, SceneStore
 
@@ -43,7 +44,7 @@ def _stored_card(store: SceneStore, name: str, _modified_at: float) -> Card:
         scene = store.load(name)
         picture = scene_picture(scene, PICTURE_SIZE_PX)
     except AI4UError as error:
-        return Card(name, name, f"can't be read: {error}", b"")
+        return Card(name, name, _("can't be read: {problem}", problem=text_of(error)), b"")
     about = scene.description
     return Card(name, name, about.goal, picture, about.level or "", about.minutes)
 

@@ -8,11 +8,13 @@ from pathlib import Path
 from ai4u_edu.base.atomic_write import make_folder, reason, write_atomically
 from ai4u_edu.base.errors import SceneError, SetupError, suggest
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.permissions import external_references
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_BYTES, MAX_SCENE_CHARS
 
 ENDING = ".yaml"
+MAX_NAME_CHARS = 60
 NAME = re.compile(r"[^\W_](?:[\w -]{0,58}[\w-])?")
 """Letters of any script, digits, spaces, - and _; so no name is a path, hidden, or an option."""
 DEVICES = re.compile(r"(?i)con|prn|aux|nul|(com|lpt)[0-9]")
@@ -57,9 +59,13 @@ class SceneStore:
         """
         file = self.file(name)
         if file is None:
-            raise SceneError(f"no scene is kept as {name!r}; {suggest(name, self.names())}")
+            hint = suggest(name, self.names())
+            raise SceneError(_("no scene is kept as {name!r}; {hint}", name=name, hint=hint))
         if file.stat().st_size > MAX_SCENE_BYTES:
-            raise SceneError(f"{file.name}: expected at most {MAX_SCENE_CHARS} characters")
+            text = _(
+                "{file}: expected at most {most} characters", file=file.name, most=MAX_SCENE_CHARS
+            )
+            raise SceneError(text)
         return Scene.load(file)
 
     def save(self, name: str, scene: Scene, *, over: bool = False) -> str:
@@ -82,32 +88,40 @@ class SceneStore:
         with self._lock:
             there = self.file(name)
             if there is not None and not over:
-                raise SceneExistsError(f"{_name_of(there)!r} is there already")
+                raise SceneExistsError(_("{name!r} is there already", name=_name_of(there)))
             if there is None and len(self._files()) >= MAX_SCENES:
                 raise SetupError(
-                    f"expected at most {MAX_SCENES} scenes; take some out of the folder"
+                    _(
+                        "expected at most {most} scenes; take some out of the folder",
+                        most=MAX_SCENES,
+                    )
                 )
             file = there or self.folder / f"{name}{ENDING}"
             if file.is_symlink() or (file.exists() and not file.is_file()):
                 # never replace a link or a folder
-                raise SetupError(f"{name!r} can't be used; choose another name")
+                raise SetupError(_("{name!r} can't be used; choose another name", name=name))
             try:
                 # `over=False`: another server may use this folder at the same time
                 write_atomically(file, scene.dumps(), over=over)
             except FileExistsError:
-                raise SceneExistsError(f"{name!r} is there already") from None
+                raise SceneExistsError(_("{name!r} is there already", name=name)) from None
             except OSError as error:
-                raise SetupError(f"{name!r} can't be kept: {reason(error)}") from None
+                raise SetupError(
+                    _("{name!r} can't be kept: {reason}", name=name, reason=reason(error))
+                ) from None
         return _name_of(file)
 
     def _check_files(self, scene: Scene) -> None:
         """Raise a SetupError if the scene needs a network file that is not in this folder."""
-        for _, kind, value in external_references(scene.description.agents):
+        for _path, kind, value in external_references(scene.description.agents):
             is_file = kind == "model_path" and not value.startswith(ZOO_PREFIX)
             if is_file and not (self.folder / value).is_file():  # `/` keeps an absolute path
                 raise SetupError(
-                    f"it needs {value!r}, which lies beside the scene that it came from; "
-                    "put a copy into the folder for saved scenes"
+                    _(
+                        "it needs {file!r}, which lies beside the scene that it came from; "
+                        "put a copy into the folder for saved scenes",
+                        file=value,
+                    )
                 )
 
     def _files(self) -> list[Path]:
@@ -135,13 +149,21 @@ got '../maze'
     """
     name = unicodedata.normalize("NFC", name).strip()
     if not name:
-        raise SetupError("expected a name, got none")
+        raise SetupError(_("expected a name, got none"))
     if not NAME.fullmatch(name):
-        told = repr(name if len(name) <= 60 else name[:59] + "…")
-        length = "" if len(name) <= 60 else "at most 60 "
-        raise SetupError(f"expected a name of {length}letters, digits, spaces, - and _, got {told}")
+        if len(name) <= MAX_NAME_CHARS:
+            text = _("expected a name of letters, digits, spaces, - and _, got {name!r}", name=name)
+        else:
+            text = _(
+                "expected a name of at most {most} letters, digits, spaces, - and _, got {name!r}",
+                most=MAX_NAME_CHARS,
+                name=name[: MAX_NAME_CHARS - 1] + "…",
+            )
+        raise SetupError(text)
     if DEVICES.fullmatch(name):
-        raise SetupError(f"{name!r} is no name for a file on Windows; choose another name")
+        raise SetupError(
+            _("{name!r} is no name for a file on Windows; choose another name", name=name)
+        )
     return name
 
 

@@ -11,6 +11,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import ParameterError, shown
 from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.blocks import Block
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import blocks
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.forms import NONE_LABEL, ParameterField, field_of
@@ -42,25 +43,27 @@ FIELDS: dict[str, type[FieldBase]] = {
     "rescue": RescueField,
 }
 """Kinds of generated fields, by the name that a scene file has for them."""
+FIELD_TITLES = _("maze"), _("line"), _("rescue")
+"""Their names as a page shows them."""
 FIELD_WORDS = {
-    "width": "Cells from left to right",
-    "height": "Cells from bottom to top",
-    "length": "Cells through which the line goes",
-    "loops": "Walls that are missing: more of them, more ways",
-    "curves": "How often the line turns",
-    "crossings": "Places where lines cross",
-    "gaps": "Places where a piece of the line is missing",
-    "obstacles": "Blocks on the line, to drive around",
-    "difficulty": "How long and hard the way is",
-    "room_size": "Cells along each side of the room",
-    "cell": "Side of a cell",
-    "position": "Middle of the field: x and y in metres",
-    "start": "What begins where the field begins",
-    "goal": "What has to be reached",
-    "marks": "Areas that lie on the line, in this order",
-    "line_width": "Width of the line",
-    "wall": "Thickness of the walls",
-    "wall_height": "Height of the walls and blocks",
+    "width": _("Cells from left to right"),
+    "height": _("Cells from bottom to top"),
+    "length": _("Cells through which the line goes"),
+    "loops": _("Walls that are missing: more of them, more ways"),
+    "curves": _("How often the line turns"),
+    "crossings": _("Places where lines cross"),
+    "gaps": _("Places where a piece of the line is missing"),
+    "obstacles": _("Blocks on the line, to drive around"),
+    "difficulty": _("How long and hard the way is"),
+    "room_size": _("Cells along each side of the room"),
+    "cell": _("Side of a cell"),
+    "position": _("Middle of the field: x and y in metres"),
+    "start": _("What begins where the field begins"),
+    "goal": _("What has to be reached"),
+    "marks": _("Areas that lie on the line, in this order"),
+    "line_width": _("Width of the line"),
+    "wall": _("Thickness of the walls"),
+    "wall_height": _("Height of the walls and blocks"),
 }
 """Plain sentences on the parameters of a generated field, in the order of the form."""
 
@@ -102,12 +105,14 @@ def field_form(scene: SceneDescription) -> list[ParameterField]:
     field = scene.generate
     kind = ParameterField(
         "type",
-        "kind",
+        _("kind"),
         "choice",
         None if field is None else field.type,
-        "A new field at each start: a maze, a line, or a rescue line with marks, obstacles and a "
-        "room. Without one the world is as you built it",
-        (NONE_LABEL, *FIELDS),
+        _(
+            "A new field at each start: a maze, a line, or a rescue line with marks, obstacles "
+            "and a room. Without one the world is as you built it"
+        ),
+        (NONE_LABEL, *FIELD_TITLES),
     )
     if field is None:
         return [kind]
@@ -120,7 +125,7 @@ def field_form(scene: SceneDescription) -> list[ParameterField]:
         for name in FIELD_WORDS
         if name in values
     ]
-    return [kind, *(replace(each, hint=FIELD_WORDS[each.name] + _ends(each)) for each in fields)]
+    return [kind, *(replace(each, hint=_with_ends(each)) for each in fields)]
 
 
 def with_field(scene: SceneDescription, values: Plain) -> SceneDescription:
@@ -141,7 +146,7 @@ def with_field(scene: SceneDescription, values: Plain) -> SceneDescription:
     if name is None:
         return scene.model_copy(update={"generate": None})
     if not isinstance(name, str) or name not in FIELDS:
-        text = f"expected one of {', '.join(FIELDS)}, got {shown(name)}"
+        text = _("expected one of {names}, got {name}", names=", ".join(FIELDS), name=shown(name))
         raise ChangeError([ParameterProblem(("type",), text)])
     cls = FIELDS[name]
     is_other = name != before.get("type")
@@ -229,11 +234,13 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     return scene.model_copy(update=fields)
 
 
-def _ends(field: ParameterField) -> str:
-    """Return the range of a number in words; empty for lengths, whose limits nobody meets."""
+def _with_ends(field: ParameterField) -> str:
+    """Return what a number is, with its range; of a length without, whose limits nobody meets."""
+    words = FIELD_WORDS[field.name]
     if field.low is None or field.high is None or field.unit == "m":
-        return ""
-    return f", {field.low:g} to {field.high:g}"
+        return words
+    low, high = f"{field.low:g}", f"{field.high:g}"
+    return _("{what}, {low} to {high}", what=words, low=low, high=high)
 
 
 def _fields(
@@ -246,9 +253,8 @@ def _fields(
 
 
 def _applying_later(fields: list[ParameterField]) -> list[ParameterField]:
-    """Say in the hints that the fields apply at the next reset."""
-    later = "applies at the next reset"
-    return [replace(each, hint="; ".join(filter(None, (each.hint, later)))) for each in fields]
+    """Say with the hints that the fields apply at the next reset."""
+    return [replace(each, note=_("It applies at the next reset.")) for each in fields]
 
 
 _ADAPTERS: dict[str, TypeAdapter[Any]] = {

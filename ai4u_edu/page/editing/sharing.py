@@ -7,6 +7,7 @@ from ai4u_edu.base.errors import SceneError
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.permissions import LOCAL_HOSTS, Permissions, external_references
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.scene_link import LINK, decode_link, encode_link
@@ -53,8 +54,10 @@ def shared_link(scene: Scene, seed: int | None) -> SharedLink:
     """
     if scene.description.pictures:
         raise SceneError(
-            "a link can't carry the picture on the ground; download the scene and send its file, "
-            "which has the picture"
+            _(
+                "a link can't carry the picture on the ground; download the scene and send its "
+                "file, which has the picture"
+            )
         )
     agents = scene.description.agents
     needs = [*_own_blocks(agents), *_references(agents)]
@@ -75,6 +78,6 @@ def _own_blocks(data: Any) -> Iterator[str]:
 
 
 def _references(agents: Any) -> Iterator[str]:
-    for _, name, value in external_references(agents):
+    for _path, name, value in external_references(agents):
         if value not in LOCAL_HOSTS and not (name == "model_path" and value.startswith(ZOO_PREFIX)):
             yield value

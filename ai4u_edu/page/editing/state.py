@@ -10,6 +10,7 @@ from typing import Any
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.input_checks import check_name
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.star_goals import StarGoals, library_star_goals
@@ -51,10 +52,12 @@ class EditState:
 
     def agent_index(self, agent_id: str) -> int:
         """Return the index of an agent in the description."""
-        check_name(agent_id, "an agent's id")
+        check_name(agent_id, _("an agent's id"))
         ids = [str(agent.get("id", "0")) for agent in self.description.agents]
         if agent_id not in ids:
-            raise NameNotFoundError(f"no agent has the id {agent_id!r}; {suggest(agent_id, ids)}")
+            raise NameNotFoundError(
+                _("no agent has the id {id!r}; {hint}", id=agent_id, hint=suggest(agent_id, ids))
+            )
         return ids.index(agent_id)
 
     def agent(self, agent_id: str) -> Mapping[str, Any]:

@@ -6,8 +6,9 @@ from typing import Any
 
 from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.base.parameters import DataPath, ParameterProblem
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
-from ai4u_edu.page.editing.forms import NONE_LABEL, ParameterField
+from ai4u_edu.page.editing.forms import NONE_LABEL, UNITS, ParameterField, with_unit
 from ai4u_edu.page.editing.things import Thing
 from ai4u_edu.world import (
     AreaDescription,
@@ -23,12 +24,42 @@ from ai4u_edu.world.descriptions import RANGES
 
 RANGE_UNITS = {"x": "m", "y": "m", "heading_deg": "deg", "scale": ""}
 """Units of the ranges of random starts."""
+EASY_LABELS: Mapping[str, str] = {
+    "x": _("easy start: x"),
+    "y": _("easy start: y"),
+    "heading_deg": _("easy start: heading"),
+    "scale": _("easy start: scale"),
+}
+"""Labels of the fields with ranges of easy starts."""
 KINDS = {
-    "static": "stands still",
-    "dynamic": "can be pushed",
-    "kinematic": "moves, can't be pushed",
+    "static": _("stands still"),
+    "dynamic": _("can be pushed"),
+    "kinematic": _("moves, can't be pushed"),
 }
 """Labels of the kinds of bodies."""
+LENGTHS = {
+    "length": _("length"),
+    "width": _("width"),
+    "radius": _("radius"),
+    "thickness": _("thickness"),
+    "inner": _("inner radius"),
+    "outer": _("outer radius"),
+}
+"""Labels of the lengths of shapes."""
+COLOURS = {
+    "black": _("black"),
+    "orange": _("orange"),
+    "sky blue": _("sky blue"),
+    "green": _("green"),
+    "yellow": _("yellow"),
+    "blue": _("blue"),
+    "vermillion": _("vermillion"),
+    "purple": _("purple"),
+    "grey": _("grey"),
+    "light grey": _("light grey"),
+    "white": _("white"),
+}
+"""Names of the palette's colours as a page shows them."""
 EASY = "easy_"
 """Beginning of the names of fields with ranges of easy starts."""
 POSE_FIELDS = ("x", "y", "heading_deg")
@@ -43,19 +74,19 @@ def thing_form(thing: Thing) -> list[ParameterField]:
     place = [
         _number("x", "x", "m", x),
         _number("y", "y", "m", y),
-        _number("heading_deg", "heading", "deg", thing.heading_deg),
-        *(_number(name, name, "m", value) for name, value in _lengths(thing).items()),
+        _number("heading_deg", _("heading"), "deg", thing.heading_deg),
+        *(_number(name, LENGTHS[name], "m", value) for name, value in _lengths(thing).items()),
     ]
     if isinstance(thing, AreaDescription) and thing.picture is not None:
         return place  # it has its own colours, and nothing is written on it
-    colours = (NONE_LABEL, *PALETTE)
+    colours: tuple[str, ...] = (NONE_LABEL, *(COLOURS[name] for name in PALETTE))
     if thing.colour is not None and thing.colour not in PALETTE:
         colours = (*colours, thing.colour)
     return [
         *place,
         *_own_fields(thing),
-        ParameterField("colour", "colour", "choice", thing.colour, "", colours),
-        ParameterField("label", "label", "text", thing.label, ""),
+        ParameterField("colour", _("colour"), "choice", thing.colour, "", colours),
+        ParameterField("label", _("label"), "text", thing.label, ""),
         *_easy_fields(thing),
     ]
 
@@ -80,7 +111,8 @@ def pose_and_changes(
     values: dict[str, Any] = {}
     for name, value in entered.items():
         if name not in known:
-            raise ChangeError([ParameterProblem((name,), f"expected one of {', '.join(known)}")])
+            text = _("expected one of {names}", names=", ".join(known))
+            raise ChangeError([ParameterProblem((name,), text)])
         read = _read(known[name], value)
         if read != _read(known[name], known[name].value):
             values[name] = read
@@ -110,7 +142,9 @@ def field_of_problem(thing: Thing, path: DataPath) -> str:
 
 
 def _number(name: str, label: str, unit: str, value: float) -> ParameterField:
-    return ParameterField(name, f"{label} ({unit})", "number", value, "", unit=unit)
+    return ParameterField(
+        name, with_unit(label, unit), "number", value, "", unit=UNITS.get(unit, unit)
+    )
 
 
 def _easy_fields(thing: Thing) -> list[ParameterField]:
@@ -121,10 +155,13 @@ def _easy_fields(thing: Thing) -> list[ParameterField]:
         full = None if thing.random is None else getattr(thing.random, name)
         if full is not None:
             unit = RANGE_UNITS[name]
-            label = f"easy start: {name.removesuffix('_deg')}{f' ({unit})' if unit else ''}"
-            hint = (
-                f"from, to, such as {_ends(full)}, which are all starts; learning by rewards "
-                "begins with the easy ones; empty for none"
+            label = EASY_LABELS[name]
+            if unit:
+                label = with_unit(label, unit)
+            hint = _(
+                "from, to, such as {ends}, which are all starts; learning by rewards begins with "
+                "the easy ones; empty for none",
+                ends=_ends(full),
             )
             value = _ends(easy[name]) if name in easy else ""
             fields.append(ParameterField(f"{EASY}{name}", label, "text", value, hint))
@@ -153,8 +190,12 @@ def _curriculum(thing: Thing, entered: Mapping[str, str]) -> dict[str, Any] | No
             low = high = math.nan
         full = getattr(thing.random, name)
         if not full[0] <= low <= high <= full[1]:
-            expected = f"expected two numbers within {_ends(full)}, the smaller one first"
-            raise ChangeError([ParameterProblem((field,), f"{expected}, got {text!r}")])
+            problem = _(
+                "expected two numbers within {ends}, the smaller one first, got {text!r}",
+                ends=_ends(full),
+                text=text,
+            )
+            raise ChangeError([ParameterProblem((field,), problem)])
         ranges[name] = (low, high)
     return ranges or None
 
@@ -164,13 +205,13 @@ def _own_fields(thing: Thing) -> list[ParameterField]:
     if isinstance(thing, BodyDescription):
         kinds = tuple(KINDS.values())
         return [
-            _number("height", "height", "m", thing.height),
-            ParameterField("kind", "kind", "choice", KINDS[thing.kind], "", kinds),
+            _number("height", _("height"), "m", thing.height),
+            ParameterField("kind", _("kind"), "choice", str(KINDS[thing.kind]), "", kinds),
         ]
     if isinstance(thing, FloorDescription):
-        return [_number("top", "top", "m", thing.top)]
-    hint = "paint: drawn in its full colour, for line sensors to follow"
-    return [ParameterField("paint", "paint", "switch", thing.paint, hint)]
+        return [_number("top", _("top"), "m", thing.top)]
+    hint = _("paint: drawn in its full colour, for line sensors to follow")
+    return [ParameterField("paint", _("paint"), "switch", thing.paint, hint)]
 
 
 def _read(field: ParameterField, entered: Any) -> Any:
@@ -181,11 +222,11 @@ def _read(field: ParameterField, entered: Any) -> Any:
     if field.name in POSE_FIELDS and (
         isinstance(value, bool) or not isinstance(value, int | float)
     ):
-        raise ChangeError([ParameterProblem((field.name,), f"expected a number, got {entered!r}")])
+        text = _("expected a number, got {value}", value=repr(entered))
+        raise ChangeError([ParameterProblem((field.name,), text)])
     if field.name in POSE_FIELDS and not math.isfinite(value):
-        raise ChangeError(
-            [ParameterProblem((field.name,), f"expected a finite number, got {entered!r}")]
-        )
+        text = _("expected a finite number, got {value}", value=repr(entered))
+        raise ChangeError([ParameterProblem((field.name,), text)])
     return value
 
 

@@ -6,8 +6,9 @@ from typing import Any, Literal
 
 from pydantic import ValidationError
 
-from ai4u_edu.base.errors import NameNotFoundError, shown, suggest
+from ai4u_edu.base.errors import NameNotFoundError, shown, suggest, text_of
 from ai4u_edu.base.parameters import MAX_NUMBER, ParameterProblem, explain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.input_checks import (
     check_name,
@@ -36,18 +37,22 @@ _SCHEMAS = {kind: cls.model_json_schema() for kind, cls in KINDS.items()}
 def thing_named(state: EditState, name: str) -> Thing:
     """Return the description of a body, a floor or an area."""
     things = {thing.name: thing for thing in state.description.things}
-    check_name(name, "the name of a thing")
+    check_name(name, _("the name of a thing"))
     if name not in things:
-        raise NameNotFoundError(f"nothing is named {name!r}; {suggest(name, things)}")
+        raise NameNotFoundError(
+            _("nothing is named {name!r}; {hint}", name=name, hint=suggest(name, things))
+        )
     return things[name]
 
 
 def body_named(state: EditState, name: str) -> BodyDescription:
     """Return the description of a body."""
     bodies = {body.name: body for body in state.description.bodies}
-    check_name(name, "the name of a body")
+    check_name(name, _("the name of a body"))
     if name not in bodies:
-        raise NameNotFoundError(f"no body is named {name!r}; {suggest(name, bodies)}")
+        raise NameNotFoundError(
+            _("no body is named {name!r}; {hint}", name=name, hint=suggest(name, bodies))
+        )
     return bodies[name]
 
 
@@ -67,9 +72,8 @@ def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bod
         return given
     check_typed(given, _SCHEMAS[kind])
     if not isinstance(given, Mapping):
-        raise ChangeError(
-            [ParameterProblem((), f"expected parameters by name, got {shown(given)}")]
-        )
+        text = _("expected parameters by name, got {values}", values=shown(given))
+        raise ChangeError([ParameterProblem((), text)])
     try:
         return cls.model_validate(dict(given))
     except ValidationError as error:
@@ -79,8 +83,12 @@ def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bod
 def with_thing(state: EditState, thing: Thing) -> EditState:
     """Add a thing, as the last one of its kind."""
     if any(other.name == thing.name for other in state.description.things):
-        text = f"something is named {thing.name!r} already; expected another name, such as "
-        raise ChangeError([ParameterProblem(("name",), text + repr(free_name(state, thing.name)))])
+        text = _(
+            "something is named {name!r} already; expected another name, such as {other!r}",
+            name=thing.name,
+            other=free_name(state, thing.name),
+        )
+        raise ChangeError([ParameterProblem(("name",), text)])
     kind = kind_of(thing)
     return _with_things(state, kind, (*getattr(state.description, kind), thing))
 
@@ -90,7 +98,10 @@ def without_thing(state: EditState, name: str) -> EditState:
     kind = kind_of(thing_named(state, name))
     for agent in state.description.agents:
         if agent.get("body") == name:
-            text = f"it is the body of agent {agent.get('id', '0')!r}; an agent needs its body"
+            text = _(
+                "it is the body of agent {agent!r}; an agent needs its body",
+                agent=str(agent.get("id", "0")),
+            )
             raise ChangeError([ParameterProblem((), text)])
     others = tuple(each for each in getattr(state.description, kind) if each.name != name)
     return state.describing(**{kind: others})
@@ -108,9 +119,8 @@ def with_changed_thing(state: EditState, name: str, values: Mapping[str, Any]) -
     named = {key: value for key, value in given.items() if value is not None}
     other = check_typed_and(values, _SCHEMAS[kind], lambda: checked_description(named, kind))
     if other.name != name and any(each.name == other.name for each in state.description.things):
-        raise ChangeError(
-            [ParameterProblem(("name",), f"something is named {other.name!r} already")]
-        )
+        text = _("something is named {name!r} already", name=other.name)
+        raise ChangeError([ParameterProblem(("name",), text)])
     things = getattr(state.description, kind)
     return _with_things(state, kind, tuple(other if each is thing else each for each in things))
 
@@ -120,7 +130,7 @@ def _with_things(state: EditState, kind: ThingKind, things: tuple[Thing, ...]) -
     try:
         check_pictures(changed.description.pictures)
     except ValueError as error:
-        raise ChangeError([ParameterProblem((), str(error))]) from None
+        raise ChangeError([ParameterProblem((), text_of(error))]) from None
     return changed
 
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.page.editing import things
 from ai4u_edu.page.editing.change_result import ChangeResult, When
 from ai4u_edu.page.editing.drivers import DriverRegistry
@@ -158,7 +160,7 @@ class Transactions:
         self._adopt_other_world()
         step = self._history.last
         if step is None:
-            raise ChangeError([ParameterProblem((), "there is nothing to undo")])
+            raise ChangeError([ParameterProblem((), _("there is nothing to undo"))])
         when = self._apply(
             step.before, step.poses_before, step.replaces_world, self._seed(step.opens)
         )
@@ -166,14 +168,14 @@ class Transactions:
             self.opened = step.opened_before
         self._history.move_back()
         self._set_state(step.before)
-        return ChangeResult(when, f"undo: {step.label}")
+        return ChangeResult(when, step.label)
 
     def redo(self) -> ChangeResult:
         """Make the change again that was undone last."""
         self._adopt_other_world()
         step = self._history.next
         if step is None:
-            raise ChangeError([ParameterProblem((), "there is nothing to do again")])
+            raise ChangeError([ParameterProblem((), _("there is nothing to do again"))])
         when = self._apply(
             step.after, step.poses_after, step.replaces_world, self._seed(step.opens)
         )
@@ -181,7 +183,7 @@ class Transactions:
             self.opened = step.after
         self._history.move_forward()
         self._set_state(step.after)
-        return ChangeResult(when, f"redo: {step.label}")
+        return ChangeResult(when, step.label)
 
     def drag(self, name: str, x: float, y: float, heading_deg: float | None) -> None:
         """Move a body without recording a change, and remember where the drag began."""
@@ -223,7 +225,7 @@ class Transactions:
                 self._set_state(after)
                 return ChangeResult("next decision", proposal.label)
             if after == before and not whole and not poses:
-                return ChangeResult("now", note="nothing is other than it was")
+                return ChangeResult("now", note=_("nothing is other than it was"))
             self.permissions.check(after.description.agents)
             has_moved = after.description.things != before.description.things
             dry_run(after, proposal.path, resets=RANDOM_RESETS if has_moved else 1)
@@ -282,7 +284,7 @@ class Transactions:
         state = EditState(description, before.folder, source=before.source)
         self._running = RunningScene(self._runner, state, self._drivers)
         self._dragged = {}
-        self._history.add(_Step("go on in another world", before, state, {}, {}, True))
+        self._history.add(_Step(_("go on in another world"), before, state, {}, {}, True))
         self._set_state(state)
 
 
@@ -293,7 +295,11 @@ def _checked(propose: Callable[[], Proposal]) -> Proposal:
     except AI4UError:
         raise
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        text = f"expected values that can be used for it: {type(error).__name__}: {error}"
+        text = _(
+            "expected values that can be used for it: {error}: {problem}",
+            error=type(error).__name__,
+            problem=str(error),
+        )
         raise ChangeError([ParameterProblem((), text)]) from error
 
 
@@ -302,14 +308,18 @@ def _warnings(step: _Step) -> str:
     before, after = step.before.description, step.after.description
     warnings = [*_warnings_of_moved(after, step.poses_after)]
     if before.success and not after.success and not step.replaces_world:
-        warnings.append(f"nothing pays {before.success!r} any more: no goal is left")
+        warnings.append(
+            _("nothing pays {reward!r} any more: no goal is left", reward=before.success)
+        )
     if not step.replaces_world and not before.floors and after.floors:
-        warnings.append("the ground was endless; now there is ground on the floors only")
+        warnings.append(_("the ground was endless; now there is ground on the floors only"))
     if not step.replaces_world and before.floors and not after.floors:
-        warnings.append("without a floor the ground is endless")
+        warnings.append(_("without a floor the ground is endless"))
     if after.generate != before.generate and _is_beyond_floor(after):
-        warnings.append("the field reaches beyond the floor: make it smaller, or the floor larger")
-    return "; ".join(warnings)
+        warnings.append(
+            _("the field reaches beyond the floor: make it smaller, or the floor larger")
+        )
+    return join(warnings, "; ") if warnings else ""
 
 
 def _is_beyond_floor(description: SceneDescription) -> bool:
@@ -329,8 +339,8 @@ def _warnings_of_moved(description: SceneDescription, names: Iterable[str]) -> I
     for name in names:
         random = bodies[name].random
         if random is not None and (random.x or random.y or random.places):
-            yield f"chance finds another place for {name!r} at each reset"
+            yield _("chance finds another place for {name!r} at each reset", name=name)
         for agent in description.agents:
             actuators = agent.get("actuators", ()) if agent.get("body") == name else ()
             if any(actuator.get("type") == "RespawnActuator" for actuator in actuators):
-                yield f"its RespawnActuator puts {name!r} elsewhere at each reset"
+                yield _("its RespawnActuator puts {name!r} elsewhere at each reset", name=name)

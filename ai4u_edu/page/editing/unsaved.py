@@ -12,6 +12,8 @@ from pathlib import Path
 
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.base.file_lock import FileLock, is_locked
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, ngettext
 from ai4u_edu.scenes import Scene
 
 ENDING = ".unsaved"
@@ -94,23 +96,27 @@ def choose_unsaved(left: Sequence[Unsaved], wanted: str = "") -> Unsaved:
         SetupError: there is none, or none of that scene.
     """
     if not left:
-        raise SetupError("there is no unsaved scene; expected: ai4u-edu play SCENE")
+        raise SetupError(_("there is no unsaved scene; expected: ai4u-edu play SCENE"))
     if wanted.isascii() and wanted.isdecimal() and 1 <= int(wanted[:6]) <= len(left):
         return left[int(wanted) - 1]
     for each in left:
         if not wanted or each.name in _names(wanted):
             return each
     raise SetupError(
-        f"there is no unsaved scene {wanted!r}; there are {format_unsaved(left)}; "
-        "expected: ai4u-edu play SCENE --restore, or its number"
+        _(
+            "there is no unsaved scene {name!r}; there are {scenes}; "
+            "expected: ai4u-edu play SCENE --restore, or its number",
+            name=wanted,
+            scenes=format_unsaved(left),
+        )
     )
 
 
 def format_unsaved(left: Sequence[Unsaved]) -> str:
     """Return a numbered text of unsaved scenes' names and times."""
     told = [f"{n} {each.name} ({each.when})" for n, each in enumerate(left[:MAX_TOLD], start=1)]
-    more = [f"{len(left) - MAX_TOLD} more"] if len(left) > MAX_TOLD else []
-    return ", ".join(told + more)
+    more = len(left) - MAX_TOLD
+    return join([*told, ngettext("{n} more", "{n} more", more)] if more > 0 else told, ", ")
 
 
 def prune(folder: Path) -> None:

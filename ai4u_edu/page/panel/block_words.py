@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+from ai4u_edu.locale import gettext as _
+
 
 class BlockWords(NamedTuple):
     """A block in words."""
@@ -17,277 +19,322 @@ class BlockWords(NamedTuple):
     """The parameters that matter most, at most three; by default the first of its own."""
 
 
-OWN_BLOCKS = "My own blocks"
+OWN_BLOCKS = _("My own blocks")
 """Heading of the blocks that somebody wrote."""
 
-_WHERE, _AROUND, _TOUCH = "Where is ...?", "What is around me?", "What do I touch?"
-_PLACE, _FAST, _BODY = "Where am I?", "How fast am I?", "How do I feel?"
-_EPISODE, _SCRIPT = "How is it going?", "What does my script tell me?"
+_WHERE, _AROUND, _TOUCH = _("Where is ...?"), _("What is around me?"), _("What do I touch?")
+_PLACE, _FAST, _BODY = _("Where am I?"), _("How fast am I?"), _("How do I feel?")
+_EPISODE, _SCRIPT = _("How is it going?"), _("What does my script tell me?")
 _SENSORS = {
     "BearingSensor": BlockWords(
-        "Direction to ...", _WHERE, "bearing", "Tells which way a thing is."
+        _("Direction to ..."), _WHERE, "bearing", _("Tells which way a thing is.")
     ),
     "OrientationSensor": BlockWords(
-        "Direction and distance", _WHERE, "bearing", "Tells which way a thing is, and how far away."
+        _("Direction and distance"),
+        _WHERE,
+        "bearing",
+        _("Tells which way a thing is, and how far away."),
     ),
     "AreaOrientationSensor": BlockWords(
-        "Smell of things nearby",
+        _("Smell of things nearby"),
         _WHERE,
         "smell",
-        "Tells kind, direction and nearness of the nearest things: a nose.",
+        _("Tells kind, direction and nearness of the nearest things: a nose."),
         ("group_code", "area", "radius"),
     ),
     "PresenceSensor": BlockWords(
-        "Still there?", _WHERE, "presence", "Tells which things of a group are still in the world."
+        _("Still there?"),
+        _WHERE,
+        "presence",
+        _("Tells which things of a group are still in the world."),
     ),
     "LinearRayCastingSensor": BlockWords(
-        "Ray sensor",
+        _("Ray sensor"),
         _AROUND,
         "rays",
-        "A fan of rays: what each of them hits, and how far away.",
+        _("A fan of rays: what each of them hits, and how far away."),
         ("number_of_rays", "field_of_view", "vision_max_distance"),
     ),
     "RayCastingSensor": BlockWords(
-        "Ray picture",
+        _("Ray picture"),
         _AROUND,
         "picture",
-        "A small picture of what is ahead, made of rays.",
+        _("A small picture of what is ahead, made of rays."),
         ("rows", "columns", "vision_max_distance"),
     ),
     "LocalGridSensor": BlockWords(
-        "Map around me", _AROUND, "map", "A map of the surroundings that turns with the robot."
-    ),
-    "GridSensor": BlockWords(
-        "Map of the world",
+        _("Map around me"),
         _AROUND,
         "map",
-        "A map of the world, made of square cells; north is up.",
+        _("A map of the surroundings that turns with the robot."),
+    ),
+    "GridSensor": BlockWords(
+        _("Map of the world"),
+        _AROUND,
+        "map",
+        _("A map of the world, made of square cells; north is up."),
         ("rows", "columns", "cell_size"),
     ),
     "LightSensor": BlockWords(
-        "Light sensor", _AROUND, "lamp", "Tells how bright the lamps are on one side."
+        _("Light sensor"), _AROUND, "lamp", _("Tells how bright the lamps are on one side.")
     ),
     "LineSensor": BlockWords(
-        "Line sensor", _AROUND, "line", "A row of eyes that look down: 1 on the line, 0 beside it."
+        _("Line sensor"),
+        _AROUND,
+        "line",
+        _("A row of eyes that look down: 1 on the line, 0 beside it."),
     ),
     "TouchSensor": BlockWords(
-        "Bumper", _TOUCH, "touch", "1 while the robot touches the target, else -1."
+        _("Bumper"), _TOUCH, "touch", _("1 while the robot touches the target, else -1.")
     ),
     "GroupTouchSensor": BlockWords(
-        "Bumper for a group",
+        _("Bumper for a group"),
         _TOUCH,
         "touch",
-        "1 while the robot touches anything of a group, else -1.",
+        _("1 while the robot touches anything of a group, else -1."),
     ),
     "GroundStatusSensor": BlockWords(
-        "Ground under me", _TOUCH, "ground", "1 on the ground, -1 in the air."
+        _("Ground under me"), _TOUCH, "ground", _("1 on the ground, -1 in the air.")
     ),
-    "HeadingSensor": BlockWords("Compass", _PLACE, "compass", "Tells which way the robot looks."),
+    "HeadingSensor": BlockWords(
+        _("Compass"), _PLACE, "compass", _("Tells which way the robot looks.")
+    ),
     "PositionSensor": BlockWords(
-        "Position", _PLACE, "position", "Tells where the robot or a thing is."
+        _("Position"), _PLACE, "position", _("Tells where the robot or a thing is.")
     ),
     "CellSensor": BlockWords(
-        "Cell of the grid", _PLACE, "cell", "Tells row and column of the cell the robot is in."
+        _("Cell of the grid"),
+        _PLACE,
+        "cell",
+        _("Tells row and column of the cell the robot is in."),
     ),
     "VelocitySensor": BlockWords(
-        "Speed", _FAST, "speed", "Tells how fast the robot drives and turns."
+        _("Speed"), _FAST, "speed", _("Tells how fast the robot drives and turns.")
     ),
     "ColourSensor": BlockWords(
-        "Colour of the ground",
+        _("Colour of the ground"),
         _AROUND,
         "eye",
-        "Tells the colour and brightness of one point of the ground: ink, paint or floor.",
+        _("Tells the colour and brightness of one point of the ground: ink, paint or floor."),
     ),
     "HearSensor": BlockWords(
-        "Hear others", _AROUND, "sound", "Tells what the nearest robots have just said."
+        _("Hear others"), _AROUND, "sound", _("Tells what the nearest robots have just said.")
     ),
     "HomeostaticSensor": BlockWords(
-        "Needs: energy, water", _BODY, "need", "Tells how hungry or thirsty the robot is."
+        _("Needs: energy, water"), _BODY, "need", _("Tells how hungry or thirsty the robot is.")
     ),
     "ActionSensor": BlockWords(
-        "My last action", _EPISODE, "memory", "Tells what the robot did last."
+        _("My last action"), _EPISODE, "memory", _("Tells what the robot did last.")
     ),
-    "RewardSensor": BlockWords("My last reward", _EPISODE, "star", "Tells the last reward."),
+    "RewardSensor": BlockWords(_("My last reward"), _EPISODE, "star", _("Tells the last reward.")),
     "StepSensor": BlockWords(
-        "Step counter", _EPISODE, "clock", "Counts the decisions of this episode."
+        _("Step counter"), _EPISODE, "clock", _("Counts the decisions of this episode.")
     ),
-    "DoneSensor": BlockWords("Episode over", _EPISODE, "end", "1 at the end, 0 before."),
-    "TruncatedSensor": BlockWords("Out of time", _EPISODE, "clock", "1 once the time is up."),
-    "IDSensor": BlockWords("My name", _EPISODE, "text", "Gives the name of the robot."),
+    "DoneSensor": BlockWords(_("Episode over"), _EPISODE, "end", _("1 at the end, 0 before.")),
+    "TruncatedSensor": BlockWords(_("Out of time"), _EPISODE, "clock", _("1 once the time is up.")),
+    "IDSensor": BlockWords(_("My name"), _EPISODE, "text", _("Gives the name of the robot.")),
     "AgentArraySensor": BlockWords(
-        "Numbers from a script", _SCRIPT, "script", "Numbers that a Python script tells the robot."
+        _("Numbers from a script"),
+        _SCRIPT,
+        "script",
+        _("Numbers that a Python script tells the robot."),
     ),
     "FloatArrayCompositeSensor": BlockWords(
-        "Sensors in one row", _SCRIPT, "row", "Joins several sensors to one."
+        _("Sensors in one row"), _SCRIPT, "row", _("Joins several sensors to one.")
     ),
 }
-_DRIVE, _THINGS, _START = "How do I drive?", "What can I do with things?", "Where do I start?"
+_DRIVE, _THINGS, _START = (
+    _("How do I drive?"),
+    _("What can I do with things?"),
+    _("Where do I start?"),
+)
 _ACTUATORS = {
     "RBMoveActuator": BlockWords(
-        "Drive and jump",
+        _("Drive and jump"),
         _DRIVE,
         "drive",
-        "Drives, turns and jumps.",
+        _("Drives, turns and jumps."),
         ("move_amount", "turn_amount", "jump_power"),
     ),
     "CBMoveActuator": BlockWords(
-        "Drive, jump and sidestep",
+        _("Drive, jump and sidestep"),
         _DRIVE,
         "drive",
-        "Drives, sidesteps, turns and jumps.",
+        _("Drives, sidesteps, turns and jumps."),
         ("move_amount", "turn_amount", "jump_power"),
     ),
     "ForceMoveActuator": BlockWords(
-        "Push myself forward", _DRIVE, "drive", "Pushes the robot forward and turns it."
+        _("Push myself forward"), _DRIVE, "drive", _("Pushes the robot forward and turns it.")
     ),
     "DifferentialDriveActuator": BlockWords(
-        "Two wheels", _DRIVE, "wheels", "Drives with a left and a right wheel."
+        _("Two wheels"), _DRIVE, "wheels", _("Drives with a left and a right wheel.")
     ),
-    "CarActuator": BlockWords("Car", _DRIVE, "car", "Drives and steers like a car."),
+    "CarActuator": BlockWords(_("Car"), _DRIVE, "car", _("Drives and steers like a car.")),
     "GridMoveActuator": BlockWords(
-        "One cell at a time", _DRIVE, "cell", "Moves by exactly one cell at each decision."
+        _("One cell at a time"), _DRIVE, "cell", _("Moves by exactly one cell at each decision.")
     ),
     "DiscreteActuator": BlockWords(
-        "List of motions", _DRIVE, "row", "Chooses one motion of a list."
+        _("List of motions"), _DRIVE, "row", _("Chooses one motion of a list.")
     ),
     "GrabActuator": BlockWords(
-        "Grab things", _THINGS, "grab", "Holds a thing that the robot touches in front."
+        _("Grab things"), _THINGS, "grab", _("Holds a thing that the robot touches in front.")
     ),
     "CollectActuator": BlockWords(
-        "Collect things", _THINGS, "collect", "Takes things away that the robot touches."
+        _("Collect things"), _THINGS, "collect", _("Takes things away that the robot touches.")
     ),
     "PenActuator": BlockWords(
-        "Draw with a pen", _THINGS, "pen", "Draws a line on the floor wherever the robot goes."
+        _("Draw with a pen"),
+        _THINGS,
+        "pen",
+        _("Draws a line on the floor wherever the robot goes."),
     ),
     "SpeakActuator": BlockWords(
-        "Speak to others",
-        "What can I tell others?",
+        _("Speak to others"),
+        _("What can I tell others?"),
         "sound",
-        "Says a few numbers to all robots that are near enough.",
+        _("Says a few numbers to all robots that are near enough."),
     ),
     "RespawnActuator": BlockWords(
-        "Start somewhere else", _START, "position", "Starts each episode at one of several places."
+        _("Start somewhere else"),
+        _START,
+        "position",
+        _("Starts each episode at one of several places."),
     ),
     "ContinuousActuator": BlockWords(
-        "Numbers for a script",
-        "What does my script do?",
+        _("Numbers for a script"),
+        _("What does my script do?"),
         "script",
-        "Gives numbers to a Python script.",
+        _("Gives numbers to a Python script."),
     ),
 }
-_REACH, _CLOSER, _AVOID = "Did I reach it?", "Am I getting closer?", "What went wrong?"
-_TRUE, _SEVERAL = "Is something true?", "How do several go together?"
+_REACH, _CLOSER, _AVOID = _("Did I reach it?"), _("Am I getting closer?"), _("What went wrong?")
+_TRUE, _SEVERAL = _("Is something true?"), _("How do several go together?")
 _REWARDS = {
     "TouchRewardFunc": BlockWords(
-        "Reach the target", _REACH, "target", "A reward for touching the target."
+        _("Reach the target"), _REACH, "target", _("A reward for touching the target.")
     ),
     "BodyInAreaRewardFunc": BlockWords(
-        "Bring something into an area", _REACH, "area", "A reward when a thing lies in an area."
-    ),
-    "EventRewardFunc": BlockWords(
-        "Each touch, or way in or out",
+        _("Bring something into an area"),
         _REACH,
         "area",
-        "A reward each time the robot touches a thing, or goes into an area or out of it.",
+        _("A reward when a thing lies in an area."),
+    ),
+    "EventRewardFunc": BlockWords(
+        _("Each touch, or way in or out"),
+        _REACH,
+        "area",
+        _("A reward each time the robot touches a thing, or goes into an area or out of it."),
     ),
     "ParkedRewardFunc": BlockWords(
-        "Park in an area", _REACH, "area", "A reward for standing straight in an area."
+        _("Park in an area"), _REACH, "area", _("A reward for standing straight in an area.")
     ),
     "CheckpointsReward": BlockWords(
-        "Touch things in order",
+        _("Touch things in order"),
         _REACH,
         "route",
-        "A reward for each target that is touched in order.",
+        _("A reward for each target that is touched in order."),
     ),
     "FigureReward": BlockWords(
-        "Draw a figure",
+        _("Draw a figure"),
         _REACH,
         "pen",
-        "A reward for ink that covers a figure, and no ink beside it.",
+        _("A reward for ink that covers a figure, and no ink beside it."),
     ),
     "GoneReward": BlockWords(
-        "Make things go away",
+        _("Make things go away"),
         _REACH,
         "presence",
-        "A reward for each thing of a group that leaves the world.",
+        _("A reward for each thing of a group that leaves the world."),
     ),
     "TargetFallReward": BlockWords(
-        "Target has fallen", _REACH, "fall", "A reward when the target has fallen."
+        _("Target has fallen"), _REACH, "fall", _("A reward when the target has fallen.")
     ),
     "ProgressReward": BlockWords(
-        "Every metre closer", _CLOSER, "closer", "A reward for each metre closer to the target."
-    ),
-    "MinDistReward": BlockWords(
-        "Closer than before",
+        _("Every metre closer"),
         _CLOSER,
         "closer",
-        "A reward for being closer to the target than ever.",
+        _("A reward for each metre closer to the target."),
+    ),
+    "MinDistReward": BlockWords(
+        _("Closer than before"),
+        _CLOSER,
+        "closer",
+        _("A reward for being closer to the target than ever."),
     ),
     "DistanceToTargetRewardFunc": BlockWords(
-        "Be near the target", _CLOSER, "target", "A reward for being near the target."
+        _("Be near the target"), _CLOSER, "target", _("A reward for being near the target.")
     ),
     "CollisionWithRewardFunc": BlockWords(
-        "Hit something", _AVOID, "touch", "A reward, or a penalty, while the robot touches a group."
+        _("Hit something"),
+        _AVOID,
+        "touch",
+        _("A reward, or a penalty, while the robot touches a group."),
     ),
     "FallReward": BlockWords(
-        "Fall", _AVOID, "fall", "A reward, or a penalty, when the robot falls."
+        _("Fall"), _AVOID, "fall", _("A reward, or a penalty, when the robot falls.")
     ),
     "DynamicFallReward": BlockWords(
-        "Fall below something",
+        _("Fall below something"),
         _AVOID,
         "fall",
-        "A reward, or a penalty, when the robot falls below a thing.",
+        _("A reward, or a penalty, when the robot falls below a thing."),
     ),
     "RestlessnessRewardFunc": BlockWords(
-        "Stand still", _AVOID, "still", "A penalty for standing still."
+        _("Stand still"), _AVOID, "still", _("A penalty for standing still.")
     ),
     "HomeostaticReward": BlockWords(
-        "Feel better", _BODY, "need", "A reward when the robot's needs get better."
+        _("Feel better"), _BODY, "need", _("A reward when the robot's needs get better.")
     ),
     "EvalBoolValue": BlockWords(
-        "A property is true", _TRUE, "check", "Holds while something is true."
+        _("A property is true"), _TRUE, "check", _("Holds while something is true.")
     ),
     "EvalFloatValue": BlockWords(
-        "A number is in a range", _TRUE, "check", "Holds while a number is in a range."
+        _("A number is in a range"), _TRUE, "check", _("Holds while a number is in a range.")
     ),
     "EvalIntValue": BlockWords(
-        "A whole number is in a range", _TRUE, "check", "Holds while a whole number is in a range."
+        _("A whole number is in a range"),
+        _TRUE,
+        "check",
+        _("Holds while a whole number is in a range."),
     ),
     "AndRewardFunc": BlockWords(
-        "All of these", _SEVERAL, "row", "A reward while all of its parts hold."
+        _("All of these"), _SEVERAL, "row", _("A reward while all of its parts hold.")
     ),
     "OrRewardFunc": BlockWords(
-        "Any of these", _SEVERAL, "row", "A reward while one of its parts holds."
+        _("Any of these"), _SEVERAL, "row", _("A reward while one of its parts holds.")
     ),
 }
-_WHO, _KEYS, _PROGRAM = "Who decides?", "Which keys drive?", "Which program drives?"
+_WHO, _KEYS, _PROGRAM = _("Who decides?"), _("Which keys drive?"), _("Which program drives?")
 _BRAINS = {
     "LocalBrain": BlockWords(
-        "Brain in this world", _WHO, "brain", "Decides here: keys, a network or a Python function."
+        _("Brain in this world"),
+        _WHO,
+        "brain",
+        _("Decides here: keys, a network or a Python function."),
     ),
     "RemoteBrain": BlockWords(
-        "Python script", _WHO, "script", "A Python script in another program decides."
+        _("Python script"), _WHO, "script", _("A Python script in another program decides.")
     ),
-    "WASDRBMoveController": BlockWords("Keys W, A, S, D", _KEYS, "keys"),
-    "WASDController": BlockWords("Keys W, A, S, D, with sidestep", _KEYS, "keys"),
-    "ArrowController": BlockWords("Arrow keys", _KEYS, "keys"),
-    "DiscreteArrowController": BlockWords("Arrow keys, one choice each", _KEYS, "keys"),
-    "NeuralNetController": BlockWords("Trained network", _PROGRAM, "network"),
-    "ScriptController": BlockWords("Python function", _PROGRAM, "script"),
-    "TrainController": BlockWords("Training script", _PROGRAM, "script"),
-    "ReplayController": BlockWords("Recorded actions", _PROGRAM, "memory"),
-    "AStarController": BlockWords("Shortest path (A*)", _PROGRAM, "route"),
-    "BreadthFirstController": BlockWords("Shortest path (breadth first)", _PROGRAM, "route"),
-    "CallController": BlockWords("Partner that calls", _PROGRAM, "sound"),
-    "AntController": BlockWords("Ant that follows trails", _PROGRAM, "route"),
-    "FleeController": BlockWords("Run away", _PROGRAM, "speed"),
-    "KeeperController": BlockWords("Goalkeeper", _PROGRAM, "area"),
-    "StrikerController": BlockWords("Striker", _PROGRAM, "target"),
-    "PushOutController": BlockWords("Sumo fighter", _PROGRAM, "drive"),
+    "WASDRBMoveController": BlockWords(_("Keys W, A, S, D"), _KEYS, "keys"),
+    "WASDController": BlockWords(_("Keys W, A, S, D, with sidestep"), _KEYS, "keys"),
+    "ArrowController": BlockWords(_("Arrow keys"), _KEYS, "keys"),
+    "DiscreteArrowController": BlockWords(_("Arrow keys, one choice each"), _KEYS, "keys"),
+    "NeuralNetController": BlockWords(_("Trained network"), _PROGRAM, "network"),
+    "ScriptController": BlockWords(_("Python function"), _PROGRAM, "script"),
+    "TrainController": BlockWords(_("Training script"), _PROGRAM, "script"),
+    "ReplayController": BlockWords(_("Recorded actions"), _PROGRAM, "memory"),
+    "AStarController": BlockWords(_("Shortest path (A*)"), _PROGRAM, "route"),
+    "BreadthFirstController": BlockWords(_("Shortest path (breadth first)"), _PROGRAM, "route"),
+    "CallController": BlockWords(_("Partner that calls"), _PROGRAM, "sound"),
+    "AntController": BlockWords(_("Ant that follows trails"), _PROGRAM, "route"),
+    "FleeController": BlockWords(_("Run away"), _PROGRAM, "speed"),
+    "KeeperController": BlockWords(_("Goalkeeper"), _PROGRAM, "area"),
+    "StrikerController": BlockWords(_("Striker"), _PROGRAM, "target"),
+    "PushOutController": BlockWords(_("Sumo fighter"), _PROGRAM, "drive"),
 }
 _PARTS = {
     "HomeostaticVariable": BlockWords(
-        "Need", _BODY, "need", "A need such as energy or water, with a zone that feels good."
+        _("Need"), _BODY, "need", _("A need such as energy or water, with a zone that feels good.")
     )
 }
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.locale import catalogue
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.messages import to_json
 from ai4u_edu.page.panel.page_view import Pictures
@@ -83,7 +84,7 @@ class PanelContext:
             SetupError: there is none.
         """
         if self.editor is None:
-            raise SetupError("this world can be watched and driven here, but not changed")
+            raise SetupError(_("this world can be watched and driven here, but not changed"))
         return self.editor
 
 

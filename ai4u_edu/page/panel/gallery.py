@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.docs import summary
+from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.blocks import types_of
 from ai4u_edu.page.editing.drivers import Driver
 from ai4u_edu.page.editing.forms import ParameterField
@@ -17,6 +19,8 @@ from ai4u_edu.page.editing.reasons import reason_against_block
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.page.panel.block_words import BLOCK_WORDS, OWN_BLOCKS, BlockWords
 
+TRAINED_NETWORK = _("Trained network")
+"""Title of the network of the package for a scene."""
 MAX_FIRST_FIELDS = 3
 """Most fields of a form that are shown before "More"."""
 
@@ -83,7 +87,7 @@ def driver_title(driver: Driver) -> str:
     if beginning in {"Keyboard:", "Program:"}:
         return words_of(rest).title
     if beginning == "Network":
-        return "Trained network" if rest.startswith("zoo:") else f"Network {rest}"
+        return TRAINED_NETWORK if rest.startswith("zoo:") else driver.title
     return driver.title
 
 
@@ -106,4 +110,7 @@ def hint_of(type_name: str) -> str:
 
 def first_sentence(cls: type[Block]) -> str:
     """Return a block's summary without its source."""
-    return summary(cls).split(" Source:")[0].replace("``", "")
+    text = summary(cls)
+    if isinstance(text, Text):
+        return text
+    return Text(text.split(" Source:")[0].replace("``", ""))

@@ -9,6 +9,7 @@ from typing import Any, Literal, NamedTuple
 
 from PIL import Image
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.things import Thing
 from ai4u_edu.snapshot import Snapshot
 from ai4u_edu.snapshot.raster import draw_thing
@@ -28,7 +29,7 @@ class Template(NamedTuple):
 
 TEMPLATES: Mapping[str, Template] = {
     "wall": Template(
-        "Wall",
+        _("Wall"),
         "bodies",
         {
             "name": "wall",
@@ -39,7 +40,7 @@ TEMPLATES: Mapping[str, Template] = {
         },
     ),
     "box": Template(
-        "Box",
+        _("Box"),
         "bodies",
         {
             "name": "box",
@@ -49,7 +50,7 @@ TEMPLATES: Mapping[str, Template] = {
         },
     ),
     "ball": Template(
-        "Ball",
+        _("Ball"),
         "bodies",
         {
             "name": "ball",
@@ -59,7 +60,7 @@ TEMPLATES: Mapping[str, Template] = {
         },
     ),
     "target": Template(
-        "Target",
+        _("Target"),
         "bodies",
         {
             "name": "target",
@@ -71,7 +72,7 @@ TEMPLATES: Mapping[str, Template] = {
         },
     ),
     "lamp": Template(
-        "Lamp",
+        _("Lamp"),
         "bodies",
         {
             "name": "lamp",
@@ -82,14 +83,14 @@ TEMPLATES: Mapping[str, Template] = {
         },
     ),
     "area": Template(
-        "Area",
+        _("Area"),
         "areas",
         {"name": "area", "shape": {"type": "circle", "radius": 1.0}, "tags": ["area"]},
     ),
     "floor": Template(
-        "Floor", "floors", {"name": "floor", "shape": {"type": "box", "size": [4, 4]}}
+        _("Floor"), "floors", {"name": "floor", "shape": {"type": "box", "size": [4, 4]}}
     ),
-    "agent": Template("Robot", "agents", {"name": "robot"}),
+    "agent": Template(_("Robot"), "agents", {"name": "robot"}),
 }
 """Templates by the name that a page sends. A robot is a copy of the one that the page shows."""
 RING_SPACING_M = 0.5

@@ -10,8 +10,9 @@ from typing import Protocol
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten, text_of
 from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.messages import MessageReader, PageCommand, id_in, to_json
 from ai4u_edu.page.panel.answers import MAX_ERROR_CHARS, Answer, change_answer, failure
@@ -149,7 +150,7 @@ class _PanelConnection:
         except Exception as error:
             self._note("error", failure(error)["text"])
             return
-        self._note("info", change_answer(f"{past_tense(result.label)}.", result).text)
+        self._note("info", change_answer(past_tense(result.label), result).text)
         self._changed.set()
 
     def _select(self, body: str) -> None:
@@ -171,7 +172,8 @@ class _PanelConnection:
             elif isinstance(message, Show):
                 self._look_at(message)
             elif len(self._tasks) >= MAX_PENDING_COMMANDS:
-                await self._refuse(message.id, "expected fewer commands at a time; wait a moment")
+                text = _("expected fewer commands at a time; wait a moment")
+                await self._refuse(message.id, text)
             else:
                 self._spawn(self._carry_out(message))
 
@@ -184,7 +186,7 @@ class _PanelConnection:
         try:
             self._page.upload.add(part)
         except AI4UError as error:
-            self._note("error", str(error))
+            self._note("error", text_of(error))
 
     def _look_at(self, show: Show) -> None:
         if show.agent not in self._context.runner.latest.static_scene.agent_of.values():
@@ -201,7 +203,7 @@ class _PanelConnection:
             task = asyncio.current_task()
             if task is not None and task.cancelling():
                 raise
-            text = "the world has ended"
+            text = _("the world has ended")
             await self._send({"type": "failed", "id": command.id, "text": text, "problems": []})
         except Exception as error:  # a student's block may raise anything in a reset
             if not isinstance(error, AI4UError):

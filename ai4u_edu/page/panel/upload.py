@@ -3,6 +3,7 @@
 import asyncio
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 
@@ -29,7 +30,9 @@ class Upload:
         """
         if len(self._data) + len(part) > MAX_RECORDING_BYTES:
             self.drop()
-            raise SetupError(f"expected a file of at most {MAX_RECORDING_BYTES // 2**20} MB")
+            raise SetupError(
+                _("expected a file of at most {most} MB", most=MAX_RECORDING_BYTES // 2**20)
+            )
         self._data += part
         self._stop_timer()
         self._timer = asyncio.get_running_loop().call_later(self._idle_timeout, self.drop)
@@ -46,7 +49,13 @@ class Upload:
         data = bytes(self._data)
         self.drop()
         if len(data) != size:
-            raise SetupError(f"expected a file of {size} bytes, got {len(data)}; send it again")
+            raise SetupError(
+                _(
+                    "expected a file of {size} bytes, got {got}; send it again",
+                    size=size,
+                    got=len(data),
+                )
+            )
         return data
 
     def drop(self) -> None:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import Any, NamedTuple
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.messages import PageCommand, Seed
 from ai4u_edu.runtime.runner import Runner
 
@@ -54,19 +55,23 @@ class RunCommand(NamedTuple):
 
 
 RUN_COMMANDS: Mapping[type[PageCommand], RunCommand] = {
-    Pause: RunCommand(lambda runner, _: runner.pause()),
-    Resume: RunCommand(lambda runner, _: runner.resume()),
-    Reset: RunCommand(lambda runner, _: runner.reset()),
-    TryAgain: RunCommand(lambda runner, _: runner.try_again(), lambda _: "The same start again."),
-    NewStart: RunCommand(lambda runner, _: runner.new_start(), lambda _: "A new start."),
+    Pause: RunCommand(lambda runner, _command: runner.pause()),
+    Resume: RunCommand(lambda runner, _command: runner.resume()),
+    Reset: RunCommand(lambda runner, _command: runner.reset()),
+    TryAgain: RunCommand(
+        lambda runner, _command: runner.try_again(), lambda _command: _("The same start again.")
+    ),
+    NewStart: RunCommand(
+        lambda runner, _command: runner.new_start(), lambda _command: _("A new start.")
+    ),
     SetSeed: RunCommand(
         lambda runner, command: runner.reset(int(command.seed)),
-        lambda command: f"Started with seed {command.seed}.",
+        lambda command: _("Started with seed {seed}.", seed=command.seed),
     ),
     LockSeed: RunCommand(
         lambda runner, command: runner.lock_seed(command.on),
         lambda command: (
-            "Each reset repeats this start." if command.on else "Resets draw new starts."
+            _("Each reset repeats this start.") if command.on else _("Resets draw new starts.")
         ),
     ),
 }

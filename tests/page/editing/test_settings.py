@@ -12,7 +12,7 @@ def test_the_forms_come_from_the_declarations() -> None:
     agent = {field.name: field for field in agent_form(description.agents[0])}
     assert list(agent)[:3] == ["skip_frame", "repeat_action", "max_steps_per_episode"]
     assert (agent["skip_frame"].value, agent["skip_frame"].kind) == (0, "whole")
-    assert "every skip_frame + 1 ticks" in agent["skip_frame"].hint
+    assert "every ``skip_frame + 1`` ticks" in agent["skip_frame"].hint
     assert agent["skip_frame"].limits == "at least 0, at most 10000"
     assert agent["repeat_action"].kind == "switch"
     assert agent["max_steps_per_episode"].value == 0
@@ -20,7 +20,7 @@ def test_the_forms_come_from_the_declarations() -> None:
     assert scene["gravity"].label == "gravity (m/s^2)"
     assert scene["gravity"].shown == "9.81"
     assert "nothing pulls in the plane" in scene["gravity"].hint
-    later = {name for name, field in (agent | scene).items() if "next reset" in field.hint}
+    later = {name for name, field in (agent | scene).items() if "next reset" in field.note}
     world = {"ticks_per_second", "damping", "gravity", "fall_threshold"}
     assert later == {"priority", "spread_decisions"} | world
     assert scene["spread_decisions"].kind == "switch"

@@ -85,7 +85,7 @@ def test_a_gallery_groups_by_question_and_tells_what_can_not_work() -> None:
         (
             "box_chase",
             "keys:StrikerController",
-            "Not for this robot: it needs a sensor with the name ball.",
+            "It needs a sensor with the name ball.",
         ),
         (
             "grid_world",

@@ -7,6 +7,7 @@ from typing import Any
 import msgspec
 import pytest
 
+from ai4u_edu.page.messages import to_json
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.page.panel.parts.training import TrainingPart, training_part
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
@@ -56,7 +57,7 @@ def check(message: Any, kind: type[PanelPart]) -> None:
 
 
 def plain(part: PanelPart) -> Any:
-    return msgspec.json.decode(msgspec.json.encode(part))
+    return msgspec.json.decode(to_json(part))
 
 
 def test_the_parts_that_browser_tests_show_are_such() -> None:

@@ -48,7 +48,7 @@ export class FieldRow {
     setText(this.#label, field.label);
     setText(this.#unit, field.unit ?? "");
     setText(this.#hint, field.hint ?? "");
-    setText(this.#detail, field.detail ?? "");
+    setText(this.#detail, (field.detail ?? "").replaceAll("``", ""));
     if (this.#control instanceof HTMLSelectElement) setOptions(this.#control, field);
     if (!isPending && document.activeElement !== this.#control) this.#show();
   }
@@ -110,9 +110,9 @@ function shownText({ shown, value }) {
  * @param {HTMLSelectElement} select
  * @param {FormField} field
  */
-function setOptions(select, { choices }) {
+function setOptions(select, { choices, words = choices }) {
   const key = JSON.stringify(choices);
   if (select.dataset.choices === key) return;
   select.dataset.choices = key;
-  select.replaceChildren(...choices.map((value) => element("option", { value, textContent: value || t("none") })));
+  select.replaceChildren(...choices.map((value, index) => element("option", { value, textContent: words[index] || t("none") })));
 }

@@ -89,7 +89,7 @@ export function choice(label, onChange) {
 
 /** @param {Option} option */
 function optionElement({ value, text, reason }) {
-  const words = reason ? `${text} – ${reason.replace(/^Not for this robot: (.)/, (_, first) => first.toUpperCase())}` : text;
+  const words = reason ? `${text} – ${reason}` : text;
   return element("option", { value, textContent: words, disabled: Boolean(reason) });
 }
 

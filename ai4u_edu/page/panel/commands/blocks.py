@@ -9,6 +9,7 @@ from msgspec import Meta
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import ChangeError, SceneEditor
 from ai4u_edu.page.editing.blocks import block_at, types_of
 from ai4u_edu.page.editing.drivers import Driver
@@ -63,8 +64,8 @@ async def _driver(page: Page, command: SetDriver) -> Answer:
     offered = await asyncio.to_thread(editor.drivers, agent_id)
     driver = next((each for each in offered if each.name == command.name), None)
     result = await page.result(editor.set_driver(agent_id, command.name))
-    words = driven_by(driver or Driver(command.name, command.name))
-    return Answer(f"{agent.body_name} is now driven by {words}.", {"when": result.when})
+    text = driven_by(agent.body_name, driver or Driver(command.name, command.name))
+    return Answer(text, {"when": result.when})
 
 
 class ListBlocks(PageCommand, tag="gallery"):
@@ -107,11 +108,14 @@ async def _add(page: Page, command: AddBlock) -> Answer:
     known = [cls.__name__ for cls in types_of(str(parent[-1]))]
     if command.type_name not in known:
         hint = suggest(command.type_name, known)
-        raise NameNotFoundError(f"no block is called {command.type_name!r}; {hint}")
+        raise NameNotFoundError(
+            _("no block is called {name!r}; {hint}", name=command.type_name, hint=hint)
+        )
     block = suggest_block(editor.state, agent_id, command.type_name)
     if parent == ("rewards",):
         block = with_goal_values(editor.state, block)
-    return await _add_to(page, block, parent, command.index, "added")
+    text = _("{block} added.", block=_title(block))
+    return await _add_to(page, block, parent, command.index, text)
 
 
 class DuplicateBlock(PageCommand, tag="duplicate_block"):
@@ -124,10 +128,12 @@ async def _duplicate(page: Page, command: DuplicateBlock) -> Answer:
     editor, agent_id = page.context.required_editor(), page.view.agent
     *parent, index = command.path
     if not isinstance(index, int):
-        raise ChangeError([ParameterProblem((), "it stands alone; expected a block in a list")])
+        text = _("it stands alone; expected a block in a list")
+        raise ChangeError([ParameterProblem((), text)])
     block = _block_of(editor, agent_id, tuple(command.path))
     copy = copy_of_block(editor.state, agent_id, block)
-    return await _add_to(page, copy, tuple(parent), index + 1, "duplicated")
+    text = _("{block} duplicated.", block=_title(block))
+    return await _add_to(page, copy, tuple(parent), index + 1, text)
 
 
 async def _add_to(
@@ -140,7 +146,7 @@ async def _add_to(
         for part in parent:
             owner = owner[part]  # type: ignore[index]
         index = len(owner) - 1
-    return change_answer(f"{_title(block)} {done}.", result, path=[*parent, index])
+    return change_answer(done, result, path=[*parent, index])
 
 
 class RemoveBlock(PageCommand, tag="remove_block"):
@@ -154,7 +160,7 @@ async def _remove(page: Page, command: RemoveBlock) -> Answer:
     path = tuple(command.path)
     title = _title(_block_of(editor, agent_id, path))
     result = await page.result(editor.remove_block(agent_id, path))
-    return change_answer(f"{title} deleted.", result)
+    return change_answer(_("{block} deleted.", block=title), result)
 
 
 class MoveBlock(PageCommand, tag="move_block"):
@@ -170,8 +176,10 @@ async def _move(page: Page, command: MoveBlock) -> Answer:
     title = _title(_block_of(editor, agent_id, tuple(command.path)))
     result = await page.result(editor.move_block(agent_id, tuple(command.path), command.by))
     where = max(0, index + command.by) if isinstance(index, int) else index
-    word = "up" if command.by < 0 else "down"
-    return change_answer(f"{title} moved {word}.", result, path=[*above, where])
+    text = _("{block} moved down.", block=title)
+    if command.by < 0:
+        text = _("{block} moved up.", block=title)
+    return change_answer(text, result, path=[*above, where])
 
 
 class SwitchBlock(PageCommand, tag="switch_block"):
@@ -186,7 +194,10 @@ async def _switch(page: Page, command: SwitchBlock) -> Answer:
     path = tuple(command.path)
     title = _title(_block_of(editor, agent_id, path))
     result = await page.result(editor.switch_block(agent_id, path, command.on))
-    return change_answer(f"{title} turned {'on' if command.on else 'off'}.", result)
+    text = _("{block} turned off.", block=title)
+    if command.on:
+        text = _("{block} turned on.", block=title)
+    return change_answer(text, result)
 
 
 class ChangeBlock(PageCommand, tag="change_block"):
@@ -203,7 +214,7 @@ async def _change(page: Page, command: ChangeBlock) -> Answer:
     fields = block_form(block, SceneNames(editor.state, agent_id))
     values = read_values(fields, command.values)
     result = await page.result(editor.change_block(agent_id, path, values))
-    return change_answer(f"{_title(block)} changed.", result)
+    return change_answer(_("{block} changed.", block=_title(block)), result)
 
 
 class ChangeAgent(PageCommand, tag="change_agent"):
@@ -220,7 +231,7 @@ async def _change_agent(page: Page, command: ChangeAgent) -> Answer:
         result = await page.result(editor.change_agent(agent_id, values))
     except ChangeError as error:
         raise ChangeError(list(problems_in_agent_form(error.problems))) from None
-    return change_answer(f"Settings of {name} changed.", result)
+    return change_answer(_("Settings of {name} changed.", name=name), result)
 
 
 class Undo(PageCommand, tag="undo"):
@@ -229,7 +240,7 @@ class Undo(PageCommand, tag="undo"):
 
 async def _undo(page: Page, _command: Undo) -> Answer:
     result = await page.result(page.context.required_editor().undo())
-    return Answer(f"Undone: {change_label(result.label.removeprefix('undo: '))}.")
+    return Answer(_("Undone: {change}.", change=change_label(result.label)))
 
 
 class Redo(PageCommand, tag="redo"):
@@ -238,7 +249,7 @@ class Redo(PageCommand, tag="redo"):
 
 async def _redo(page: Page, _command: Redo) -> Answer:
     result = await page.result(page.context.required_editor().redo())
-    return Answer(f"Done again: {change_label(result.label.removeprefix('redo: '))}.")
+    return Answer(_("Done again: {change}.", change=change_label(result.label)))
 
 
 def _block_of(editor: SceneEditor, agent_id: str, path: BlockPath) -> Plain:

@@ -6,6 +6,7 @@ from typing import Annotated
 from msgspec import Meta
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.messages import Name, Number, PageCommand
 from ai4u_edu.page.panel.answers import Answer
 from ai4u_edu.page.panel.commands.handler import Handler
@@ -25,7 +26,7 @@ class OpenEpisode(PageCommand, tag="episode"):
 async def _episode(page: Page, command: OpenEpisode) -> Answer:
     archive = _archive(page)
     if command.number != RUNNING_EPISODE and archive.find(command.number) is None:
-        raise SetupError(f"episode {command.number} is not kept any more")
+        raise SetupError(_("episode {n} is not kept any more", n=command.number))
     page.context.player.open(command.number, page.view.agent)
     page.view.ask_again("past")
     return Answer()
@@ -90,7 +91,7 @@ async def _continue(page: Page, _command: ContinueHere) -> Answer:
     chosen_episode(page)
     # it waits until the episode was replayed up to there
     await page.result(await page.in_thread(page.context.player.continue_from_here))
-    return Answer("The world runs on from here.")
+    return Answer(_("The world runs on from here."))
 
 
 class Race(PageCommand, tag="race"):
@@ -102,10 +103,10 @@ async def _race(page: Page, _command: Race) -> Answer:
     context, runner = page.context, page.context.runner
     number = frame_cache.number
     context.player.cancel()
-    context.ghosts.race(frame_cache.episode, f"episode {number}")
+    context.ghosts.race(frame_cache.episode, _("episode {n}", n=number))
     runner.reset(frame_cache.episode.seed)
     await page.result(runner.resume())
-    return Answer(f"Race against episode {number}: it starts as you do.")
+    return Answer(_("Race against episode {n}: it starts as you do.", n=number))
 
 
 class RemoveGhost(PageCommand, tag="remove_ghost"):
@@ -114,7 +115,7 @@ class RemoveGhost(PageCommand, tag="remove_ghost"):
 
 async def _remove_ghost(page: Page, _command: RemoveGhost) -> Answer:
     page.context.ghosts.race(None)
-    return Answer("The ghost is gone.")
+    return Answer(_("The ghost is gone."))
 
 
 class Pin(PageCommand, tag="pin"):
@@ -126,8 +127,9 @@ class Pin(PageCommand, tag="pin"):
 
 async def _pin(page: Page, command: Pin) -> Answer:
     _archive(page).pin(command.number, on=command.on)
-    kept = "is kept" if command.on else "is no longer pinned"
-    return Answer(f"Episode {command.number} {kept}.")
+    if command.on:
+        return Answer(_("Episode {n} is kept.", n=command.number))
+    return Answer(_("Episode {n} is no longer pinned.", n=command.number))
 
 
 class OpenRecording(PageCommand, tag="open_recording"):
@@ -143,13 +145,14 @@ async def _open_recording(page: Page, command: OpenRecording) -> Answer:
     episode = await page.in_thread(lambda: decode(Episode, data, command.name))
     number = archive.append(episode, command.name).number
     page.context.player.open(number)
-    return Answer(f"Opened {command.name} as episode {number}.", {"number": number})
+    text = _("Opened {file} as episode {n}.", file=command.name, n=number)
+    return Answer(text, {"number": number})
 
 
 def _archive(page: Page) -> Archive:
     archive = page.context.player.archive
     if archive is None:
-        raise SetupError("episodes are not recorded here")
+        raise SetupError(_("episodes are not recorded here"))
     return archive
 
 
@@ -161,7 +164,7 @@ def chosen_episode(page: Page) -> FrameCache:
     """
     frame_cache = page.context.player.frame_cache
     if frame_cache is None:
-        raise SetupError("choose an episode first")
+        raise SetupError(_("choose an episode first"))
     return frame_cache
 
 

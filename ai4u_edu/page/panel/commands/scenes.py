@@ -6,8 +6,8 @@ from functools import partial
 from typing import Any
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import Text, library_text
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import library_text
 from ai4u_edu.page.editing.scene_cards import Card, stored_cards
 from ai4u_edu.page.editing.scene_pictures import LibraryScene, library_scenes
 from ai4u_edu.page.messages import Name, Number, PageCommand
@@ -50,10 +50,10 @@ async def _open(page: Page, command: OpenScene) -> Answer:
     load = partial(Scene.load, command.name)
     if command.is_saved:
         if editor.scene_store is None:
-            raise SetupError("no scenes are saved here")
+            raise SetupError(_("no scenes are saved here"))
         load = partial(editor.scene_store.load, command.name)
     elif command.name not in Scene.names():
-        raise SetupError(f"no scene of the library is called {command.name!r}")
+        raise SetupError(_("no scene of the library is called {name!r}", name=command.name))
     scene = await page.in_thread(load)
     await page.result(editor.open(scene))
     return Answer(_("Opened {title}.", title=library_text(editor.title)))
@@ -69,12 +69,13 @@ class SaveScene(PageCommand, tag="save_scene"):
 async def _save(page: Page, command: SaveScene) -> Answer:
     editor = page.context.required_editor()
     if editor.scene_store is None:
-        raise SetupError("scenes can't be saved here; download the file")
+        raise SetupError(_("scenes can't be saved here; download the file"))
     scene = editor.scene
     save = partial(editor.scene_store.save, command.name, scene, over=command.over)
     name = await asyncio.to_thread(save)
     editor.recovery.mark_saved(scene)
-    return Answer(f"Saved as “{name}”. Find it under Choose a scene.", {"saved_as": name})
+    text = _("Saved as “{name}”. Find it under Choose a scene.", name=name)
+    return Answer(text, {"saved_as": name})
 
 
 class Download(PageCommand, tag="download"):
@@ -87,7 +88,7 @@ async def _download(page: Page, _command: Download) -> Answer:
     text = await asyncio.to_thread(scene.dumps)
     editor.recovery.mark_saved(scene)
     more = {"file": f"{file_name(scene)}.yaml", "content": text}
-    return Answer("The scene's file is in your downloads.", more)
+    return Answer(_("The scene's file is in your downloads."), more)
 
 
 class LoadText(PageCommand, tag="load_text"):
@@ -101,11 +102,13 @@ async def _load(page: Page, command: LoadText) -> Answer:
     editor = page.context.required_editor()
     data = page.upload.take(command.size)
     if len(data) > MAX_SCENE_BYTES:
-        raise SetupError(f"{command.name}: expected at most {MAX_SCENE_BYTES} bytes")
+        raise SetupError(
+            _("{file}: expected at most {most} bytes", file=command.name, most=MAX_SCENE_BYTES)
+        )
     try:
         text = data.decode()
     except UnicodeDecodeError:
-        raise SetupError(f"{command.name}: expected a text file, YAML") from None
+        raise SetupError(_("{file}: expected a text file, YAML", file=command.name)) from None
     await page.result(await page.in_thread(lambda: editor.load(text, command.name)))
     return Answer(_("Opened {title}.", title=library_text(editor.title)))
 
@@ -126,7 +129,7 @@ class Discard(PageCommand, tag="discard"):
 
 async def _discard(page: Page, _command: Discard) -> Answer:
     page.context.required_editor().recovery.discard()
-    return Answer("The unsaved scene is deleted.")
+    return Answer(_("The unsaved scene is deleted."))
 
 
 def file_name(scene: Scene) -> str:
@@ -139,7 +142,7 @@ def _card(card: Card | LibraryScene, picture: str, *, is_saved: bool = False) ->
     return {
         "name": card.name,
         "title": library_text(card.title),
-        "goal": library_text(card.goal),
+        "goal": card.goal if isinstance(card.goal, Text) else library_text(card.goal),
         "level": card.level,
         "minutes": card.minutes,
         "stars": card.stars if isinstance(card, LibraryScene) else 0,

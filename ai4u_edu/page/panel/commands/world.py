@@ -2,16 +2,18 @@
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta
 
-from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
+from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest, text_of
 from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, ngettext
 from ai4u_edu.page.editing import ChangeError, SceneEditor
 from ai4u_edu.page.editing.forms import read_values
-from ai4u_edu.page.editing.proposals import NewThing
+from ai4u_edu.page.editing.proposals import Goal, NewThing
 from ai4u_edu.page.editing.settings import field_form, scene_form
 from ai4u_edu.page.editing.thing_form import field_of_problem, pose_and_changes
 from ai4u_edu.page.editing.things import (
@@ -137,7 +139,9 @@ async def _ground(page: Page, _command: Ground) -> Answer:
     static_scene = page.context.runner.latest.static_scene
     matrix = page.view.ground_matrix(static_scene.lowest_floor)
     if matrix is None:
-        raise SetupError("the picture of the world is not there yet; wait a moment, and try again")
+        raise SetupError(
+            _("the picture of the world is not there yet; wait a moment, and try again")
+        )
     return Answer(more={"matrix": matrix})
 
 
@@ -154,20 +158,22 @@ async def _add(page: Page, command: AddBody) -> Answer:
     template = TEMPLATES.get(command.template)
     if template is None:
         hint = suggest(command.template, TEMPLATES)
-        raise NameNotFoundError(f"nothing is called {command.template!r}; {hint}")
+        raise NameNotFoundError(
+            _("nothing is called {name!r}; {hint}", name=command.template, hint=hint)
+        )
     described = _described(page, editor, template)
     new = _new_thing(page, template, described)
     if command.x is None or command.y is None:
         at = _place_for(page, described, template)
-        return await _add_all(page, [new], at, "Added", has_room=True)
-    return await _add_all(page, [new], (command.x, command.y), "Added")
+        return await _add_all(page, [new], at, _added, has_room=True)
+    return await _add_all(page, [new], (command.x, command.y), _added)
 
 
 async def _add_all(
     page: Page,
     new_things: Sequence[NewThing],
     offset: tuple[float, float],
-    done: str,
+    done: Callable[[Sequence[str]], str],
     *,
     has_room: bool = False,
 ) -> Answer:
@@ -177,7 +183,7 @@ async def _add_all(
         page: gets the answer.
         new_things: with any names.
         offset: by which they are moved (m); if bodies have no room, to the nearest place with some.
-        done: a verb for the answer.
+        done: returns the answer, of the names that the things got.
         has_room: True if that was looked for.
     """
     editor = page.context.required_editor()
@@ -191,8 +197,10 @@ async def _add_all(
         placed.append(new._replace(description=described))
     result = await page.result(editor.add_things(placed))
     page.view.select(names[0], tuple(names[1:]))
-    aside = "" if free == offset else " There was no room right there, so it is beside."
-    return change_answer(f"{done} {_named_things(names)}.{aside}", result, bodies=names)
+    text = done(names)
+    if free != offset:
+        text = join([text, _("There was no room right there, so it is beside.")])
+    return change_answer(text, result, bodies=names)
 
 
 def _free_offset(
@@ -214,8 +222,8 @@ def _free_offset(
         return free
     (x, y) = bodies[0].position
     if snapshot.static_scene.floor_under(x + offset[0], y + offset[1]) is None:
-        raise SetupError("there is no floor: put it on a floor, or add a floor first")
-    raise SetupError("there is no room: put it where nothing else stands")
+        raise SetupError(_("there is no floor: put it on a floor, or add a floor first"))
+    raise SetupError(_("there is no room: put it where nothing else stands"))
 
 
 class LayPicture(PageCommand, tag="lay_picture"):
@@ -231,7 +239,8 @@ async def _lay(page: Page, command: LayPicture) -> Answer:
     try:
         data = await page.in_thread(lambda: picture_data(file))
     except ValueError as error:
-        raise SetupError(f"{command.name}: {error}") from None
+        text = _("{file}: {problem}", file=command.name, problem=text_of(error))
+        raise SetupError(text) from None
     rows, columns = picture_size(data)
     static_scene = page.context.runner.latest.static_scene
     (left, low), (right, high) = static_scene.bounds
@@ -245,7 +254,7 @@ async def _lay(page: Page, command: LayPicture) -> Answer:
     }
     center = page.view.ground_center or _middle(static_scene)
     at = round(center[0], 1), round(center[1], 1)
-    return await _add_all(page, [NewThing(described, "areas")], at, "Laid", has_room=True)
+    return await _add_all(page, [NewThing(described, "areas")], at, _laid, has_room=True)
 
 
 def _length(metres: float) -> float:
@@ -270,7 +279,7 @@ class Duplicate(PageCommand, tag="duplicate"):
 
 async def _duplicate(page: Page, command: Duplicate) -> Answer:
     copies = _copies(page, command.names)
-    return await _add_all(page, copies, (COPY_OFFSET_M, -COPY_OFFSET_M), "Copied as")
+    return await _add_all(page, copies, (COPY_OFFSET_M, -COPY_OFFSET_M), _copied)
 
 
 class Copy(PageCommand, tag="copy"):
@@ -281,7 +290,13 @@ class Copy(PageCommand, tag="copy"):
 
 async def _copy(page: Page, command: Copy) -> Answer:
     page.clipboard[:] = _copies(page, command.names)
-    return Answer(f"Copied {_named_things(command.names)}. Ctrl+V pastes it.")
+    names = tuple(dict.fromkeys(command.names))
+    if len(names) == 1:
+        return Answer(_("Copied {name}. Ctrl+V pastes it.", name=names[0]))
+    text = ngettext(
+        "Copied {n} thing. Ctrl+V pastes it.", "Copied {n} things. Ctrl+V pastes them.", len(names)
+    )
+    return Answer(text)
 
 
 class Paste(PageCommand, tag="paste"):
@@ -299,13 +314,13 @@ async def _paste(page: Page, command: Paste) -> Answer:
         for new in page.clipboard
     ]
     if not copies:
-        raise SetupError("nothing was copied yet: select a thing, and press Ctrl+C")
+        raise SetupError(_("nothing was copied yet: select a thing, and press Ctrl+C"))
     offset = COPY_OFFSET_M, -COPY_OFFSET_M
     if command.x is not None and command.y is not None:
         places = [new.description.get("position", (0.0, 0.0)) for new in copies]
         xs, ys = zip(*places, strict=True)
         offset = command.x - (min(xs) + max(xs)) / 2, command.y - (min(ys) + max(ys)) / 2
-    return await _add_all(page, copies, offset, "Pasted")
+    return await _add_all(page, copies, offset, _pasted)
 
 
 class ChangeBody(PageCommand, tag="change_body"):
@@ -330,7 +345,10 @@ async def _change(page: Page, command: ChangeBody) -> Answer:
         result = await page.result(future)
     except ChangeError as error:
         raise ChangeError(_named(thing, error)) from None
-    return change_answer(f"{'Changed' if values else 'Moved'} {thing.name}.", result)
+    text = _("Moved {name}.", name=thing.name)
+    if values:
+        text = _("Changed {name}.", name=thing.name)
+    return change_answer(text, result)
 
 
 class MoveBody(PageCommand, tag="move_body"):
@@ -346,7 +364,7 @@ async def _move(page: Page, command: MoveBody) -> Answer:
     future = page.context.required_editor().move_body(
         command.name, command.x, command.y, command.heading_deg
     )
-    return change_answer(f"Moved {command.name}.", await page.result(future))
+    return change_answer(_("Moved {name}.", name=command.name), await page.result(future))
 
 
 class Nudge(PageCommand, tag="nudge"):
@@ -372,12 +390,18 @@ async def _nudge(page: Page, command: Nudge) -> Answer:
             for name, (x, y, heading) in poses.items()
         }
         result = await page.result(editor.move_things(goals, is_nudge=True))
-    where = ""
-    if len(goals) == 1:
-        ((x, y, heading_deg),) = goals.values()
-        turned = "" if heading_deg is None else f", turned to {heading_deg:.0f}°"
-        where = f" to x {x:.2f} m, y {y:.2f} m{turned}"
-    return change_answer(f"Moved {_named_things(command.names)}{where}.", result)
+    return change_answer(_moved(goals), result)
+
+
+def _moved(goals: Mapping[str, Goal]) -> str:
+    if len(goals) > 1:
+        return ngettext("Moved {n} thing.", "Moved {n} things.", len(goals))
+    ((name, (x, y, heading_deg)),) = goals.items()
+    place = {"name": name, "x": f"{x:.2f}", "y": f"{y:.2f}"}
+    if heading_deg is None:
+        return _("Moved {name} to x {x} m, y {y} m.", **place)
+    degrees = f"{heading_deg:.0f}"
+    return _("Moved {name} to x {x} m, y {y} m, turned to {degrees}°.", degrees=degrees, **place)
 
 
 class Align(PageCommand, tag="align"):
@@ -391,11 +415,14 @@ async def _align(page: Page, command: Align) -> Answer:
     editor = page.context.required_editor()
     async with page.moves:
         poses = await _present_poses(page, command.names)
-        places = {name: (x, y) for name, (x, y, _) in poses.items()}
+        places = {name: (x, y) for name, (x, y, _heading) in poses.items()}
         aligned = aligned_places(places, command.how)
         goals = {name: (x, y, None) for name, (x, y) in aligned.items()}
         result = await page.result(editor.move_things(goals))
-    return change_answer(f"Aligned {_named_things(command.names)}.", result)
+    if len(places) == 1:
+        return change_answer(_("Aligned {name}.", name=command.names[0]), result)
+    text = ngettext("Aligned {n} thing.", "Aligned {n} things.", len(places))
+    return change_answer(text, result)
 
 
 class RemoveBodies(PageCommand, tag="remove_bodies"):
@@ -407,7 +434,10 @@ class RemoveBodies(PageCommand, tag="remove_bodies"):
 async def _remove(page: Page, command: RemoveBodies) -> Answer:
     names = tuple(dict.fromkeys(command.names))
     result = await page.result(page.context.required_editor().remove_things(names))
-    return change_answer(f"Deleted {_named_things(names)}.", result)
+    if len(names) == 1:
+        return change_answer(_("Deleted {name}.", name=names[0]), result)
+    text = ngettext("Deleted {n} thing.", "Deleted {n} things.", len(names))
+    return change_answer(text, result)
 
 
 class ChangeSettings(PageCommand, tag="change_settings"):
@@ -420,7 +450,7 @@ async def _settings(page: Page, command: ChangeSettings) -> Answer:
     editor = page.context.required_editor()
     values = read_values(scene_form(editor.state.description), command.values)
     result = await page.result(editor.change_settings(values))
-    return change_answer("Settings of the scene changed.", result)
+    return change_answer(_("Settings of the scene changed."), result)
 
 
 class ChangeField(PageCommand, tag="change_field"):
@@ -433,7 +463,7 @@ async def _field(page: Page, command: ChangeField) -> Answer:
     editor = page.context.required_editor()
     values = read_values(field_form(editor.state.description), command.values)
     result = await page.result(editor.change_field(values))
-    return change_answer("Here is the new field.", result)
+    return change_answer(_("Here is the new field."), result)
 
 
 def _described(page: Page, editor: SceneEditor, template: Template) -> Mapping[str, Any]:
@@ -468,9 +498,26 @@ def _copies(page: Page, names: Sequence[str]) -> list[NewThing]:
     ]
 
 
-def _named_things(names: Sequence[str]) -> str:
-    """Return one name, or the number of several."""
-    return names[0] if len(names) == 1 else f"{len(names)} things"
+def _added(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return _("Added {name}.", name=names[0])
+    return ngettext("Added {n} thing.", "Added {n} things.", len(names))
+
+
+def _laid(names: Sequence[str]) -> str:
+    return _("Laid {name}.", name=names[0])
+
+
+def _copied(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return _("Copied as {name}.", name=names[0])
+    return ngettext("Copied as {n} thing.", "Copied as {n} things.", len(names))
+
+
+def _pasted(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return _("Pasted {name}.", name=names[0])
+    return ngettext("Pasted {n} thing.", "Pasted {n} things.", len(names))
 
 
 def _place_for(page: Page, described: Mapping[str, Any], template: Template) -> tuple[float, float]:
@@ -481,7 +528,7 @@ def _place_for(page: Page, described: Mapping[str, Any], template: Template) -> 
         return round(center[0], 1), round(center[1], 1)
     found = free_position(snapshot, dict(described), *center)
     if found is None:
-        raise SetupError("there is no room for it around the middle of the picture")
+        raise SetupError(_("there is no room for it around the middle of the picture"))
     return found
 
 
@@ -504,7 +551,7 @@ def _present_pose(page: Page, editor: SceneEditor, name: str) -> Pose:
     """Return a thing's pose now; in the runner's thread."""
     thing = thing_named(editor.state, name)
     if isinstance(thing, BodyDescription):
-        x, y, _, heading = page.context.runner.sim.world[name].pose
+        x, y, _z, heading = page.context.runner.sim.world[name].pose
         return x, y, heading
     return (*thing.position, math.radians(thing.heading_deg))
 

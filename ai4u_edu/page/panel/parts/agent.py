@@ -12,6 +12,7 @@ from ai4u_edu.agent import BasicAgent, LedgerEntry
 from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -273,7 +274,7 @@ def _readings(snapshot: Snapshot, agent: AgentState, shown: Collection[str]) -> 
             agent.percept[sensor.key],
             colours,
             agent.rays.get(sensor.key),
-            title=title if counts[title] == 1 else f"{title}: {sensor.key}",
+            title=title if counts[title] == 1 else _("{title}: {key}", title=title, key=sensor.key),
             is_drawable=agent.is_drawable(sensor),
             is_shown=sensor.key in shown,
         )

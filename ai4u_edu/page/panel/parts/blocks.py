@@ -7,9 +7,11 @@ from msgspec import UNSET, Struct, UnsetType, field
 
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Block
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.page.editing import EditState, SceneEditor
 from ai4u_edu.page.editing.blocks import KINDS, block_at, is_enabled
-from ai4u_edu.page.editing.forms import block_form
+from ai4u_edu.page.editing.forms import ParameterField, block_form
 from ai4u_edu.page.editing.plain import BlockPath, Plain
 from ai4u_edu.page.editing.scene_names import SceneNames, name_of
 from ai4u_edu.page.editing.settings import agent_form
@@ -23,15 +25,17 @@ from ai4u_edu.page.panel.parts.part import PanelPart
 
 AGENT_KINDS = ("sensors", "actuators", "rewards", "brains")
 PARTS: Mapping[str, tuple[str, Kind | UnsetType, str | UnsetType]] = {
-    "children": ("Reward", "rewards", UNSET),
-    "sensors": ("Sensor", "sensors", UNSET),
-    "variables": ("Need", UNSET, "HomeostaticVariable"),
+    "children": (_("Reward"), "rewards", UNSET),
+    "sensors": (_("Sensor"), "sensors", UNSET),
+    "variables": (_("Need"), UNSET, "HomeostaticVariable"),
 }
 """Parts of which a block may have several, by the parameter that holds them: title, and the kind of
 the gallery or the one class."""
 MAX_READS_CHARS = 80
+"""Length of a block's parameters in its row; others are left out."""
+MAX_VALUE_CHARS = 40
 
-YES_NO = {"True": "yes", "False": "no"}
+YES_NO = {"True": _("yes"), "False": _("no")}
 """Words for the value of a switch."""
 
 
@@ -208,7 +212,7 @@ def _children(block: Plain, path: BlockPath, names: SceneNames) -> list[BlockRow
 def _name(block: Plain) -> str:
     """Return a block's name in the percept, the action or the rewards; empty if it has none."""
     cls = Block.types[str(block["type"])]
-    for base, (_, parameter) in NAMED.items():
+    for base, (_suffixes, parameter) in NAMED.items():
         if issubclass(cls, base):
             return name_of(block, parameter)
     return str(block.get("name", ""))
@@ -218,13 +222,25 @@ def _reads(block: Plain, names: SceneNames) -> str:
     """Return a block's most important parameters in a few words."""
     fields = block_form(block, names)
     first = first_fields(str(block["type"]), fields)
-    texts = [
-        f"{plain_label(f)}: {YES_NO.get(f.shown, f.shown)}"
+    texts: list[str] = [
+        _("{label}: {value}", label=plain_label(f), value=_value(f))
         for f in fields
         if f.name in first and f.shown not in {"", "{}"}
     ]
-    text = ", ".join(texts)
-    return text if len(text) <= MAX_READS_CHARS else text[: MAX_READS_CHARS - 1] + "…"
+    chars = 0
+    shown: list[str] = []
+    for text in texts:
+        chars += len(text)
+        if chars > MAX_READS_CHARS:
+            return join([*shown, "…"], ", ")
+        shown.append(text)
+    return join(shown, ", ") if shown else ""
+
+
+def _value(field: ParameterField) -> str:
+    if field.kind == "data" and len(field.shown) > MAX_VALUE_CHARS:
+        return f"{field.shown[: MAX_VALUE_CHARS - 1]}…"
+    return YES_NO.get(field.shown, field.shown)
 
 
 def _form(state: EditState, agent_id: str, path: BlockPath | None) -> BlockForm | None:

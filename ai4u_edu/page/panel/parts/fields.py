@@ -5,6 +5,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from ai4u_edu.locale import Text
 from ai4u_edu.page.editing.forms import Kind, ParameterField
 from ai4u_edu.page.panel.field_hints import detail, plain_hint, plain_label
 
@@ -27,6 +28,8 @@ class FormField(Struct, frozen=True):
     """The meaning of the parameter in the words of its class, with its range."""
     choices: list[str]
     """Values to choose from, for the kind ``choice``; else suggestions."""
+    words: list[str]
+    """Words for these values in the reader's language."""
     is_common: bool
     """True if every block of the kind has it."""
     is_first: bool
@@ -52,10 +55,11 @@ def form_field(field: ParameterField, first: Collection[str] = (), block: str = 
         label=plain_label(field),
         kind=field.kind,
         value=field.value,
-        shown=field.shown,
+        shown=str(field.shown),
         hint=plain_hint(field, block),
         detail=detail(field),
         choices=[str(choice) for choice in field.choices],
+        words=[choice if isinstance(choice, Text) else str(choice) for choice in field.choices],
         is_common=field.is_common,
         is_first=field.name in first,
         unit=field.unit,

@@ -7,7 +7,8 @@ from msgspec import Struct
 from ai4u_edu.base.optional_deps import has
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
-from ai4u_edu.locale import library_text
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, library_text
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -17,15 +18,19 @@ from ai4u_edu.runtime.replay_player import RUNNING_EPISODE
 from ai4u_edu.snapshot import Snapshot
 
 FORMATS = {
-    "html": "Web page",
+    "html": _("Web page"),
     "gif": "GIF",
     "mp4": "MP4",
-    "csv": "Table (CSV)",
-    "episode": "Recording",
+    "csv": _("Table (CSV)"),
+    "episode": _("Recording"),
 }
 """Titles of the download formats, by file extension."""
 
-
+DRIVERS = {
+    "Recording": _("Recording"),
+    "a script": _("a script"),
+}
+"""Drivers whose titles a recording has in English words."""
 FALLS = ("FallReward", "DynamicFallReward")
 """Classes of rewards that are paid when their agent falls."""
 
@@ -152,7 +157,8 @@ def driver_words(title: str) -> str:
     'Recording, a script'
     """
     parts = [part.rstrip(")").rpartition("(")[2] for part in title.split(", ")]
-    return ", ".join(words_of(part).title if part in Block.types else part for part in parts)
+    titles = [words_of(part).title if part in Block.types else part for part in parts]
+    return join([DRIVERS.get(title, title) for title in titles], ", ")
 
 
 def _scene_name(context: PanelContext) -> str:

@@ -6,6 +6,8 @@ from typing import Literal
 from msgspec import Struct
 
 from ai4u_edu.blocks.rewards.reward_func import Stages
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import sentence
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.snapshot import AgentState, Snapshot
@@ -111,7 +113,13 @@ def _stages(stages: Stages) -> list[Stage]:
     """
     passed, total = stages.passed, stages.total
     if total > MAX_STAGES:
-        return [Stage(f"{passed} of {total}", is_done=passed >= total, is_now=passed < total)]
+        return [
+            Stage(
+                _("{n} of {total}", n=passed, total=total),
+                is_done=passed >= total,
+                is_now=passed < total,
+            )
+        ]
     return [
         Stage(str(number + 1), is_done=number < passed, is_now=number == passed)
         for number in range(total)
@@ -120,25 +128,28 @@ def _stages(stages: Stages) -> list[Stage]:
 
 def _status(snapshot: Snapshot) -> str:
     if snapshot.error:
-        return "Stopped"
+        return _("Stopped")
     if snapshot.past:
-        return f"Showing {snapshot.past}"
+        return _("Showing {moment}", moment=snapshot.past)
     if snapshot.waiting == "teacher":
-        return "Stopped by your teacher"
+        return _("Stopped by your teacher")
     if snapshot.paused:
-        return "Paused"
+        return _("Paused")
     if snapshot.waiting:
-        return "Waiting for a key"
+        return _("Waiting for a key")
     wanted, factor = snapshot.time_scale, snapshot.real_time_factor
     if not math.isinf(wanted) and factor < MIN_SPEED_SHARE * wanted:
-        return f"Running at {factor:.1f}x: this computer can't keep up with {wanted:g}x"
-    return "Running"
+        return _(
+            "Running at {factor}x: this computer can't keep up with {wanted}x",
+            factor=f"{factor:.1f}",
+            wanted=f"{wanted:g}",
+        )
+    return _("Running")
 
 
 def _result_text(agent: AgentState) -> str:
     """Return the end of the agent's episode as a short sentence; empty while it runs."""
-    text = ending(agent) if agent.terminated or agent.truncated else ""
-    return text[:1].upper() + text[1:]
+    return sentence(ending(agent)) if agent.terminated or agent.truncated else ""
 
 
 def slow_warning(snapshot: Snapshot) -> str:
@@ -147,5 +158,12 @@ def slow_warning(snapshot: Snapshot) -> str:
     if slow is None:
         return ""
     overlap = slow.contacts > len(snapshot.bodies) * MAX_USUAL_CONTACTS
-    why = f" with {slow.contacts} contacts. Move bodies out of each other" if overlap else ""
-    return f"Slow computer: a step took {1000 * slow.seconds:.0f} ms{why}."
+    took = f"{1000 * slow.seconds:.0f}"
+    if overlap:
+        return _(
+            "Slow computer: a step took {ms} ms with {contacts} contacts. "
+            "Move bodies out of each other.",
+            ms=took,
+            contacts=slow.contacts,
+        )
+    return _("Slow computer: a step took {ms} ms.", ms=took)

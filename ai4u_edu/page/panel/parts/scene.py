@@ -7,7 +7,9 @@ from msgspec import UNSET, Struct, UnsetType
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.driving_keys import keys_of
 from ai4u_edu.base.colors import hex_colour
-from ai4u_edu.locale import library_text
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, library_text
+from ai4u_edu.page.editing.goals import goal_sentence
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.parts.blocks import UndoLabel, undo_labels
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -96,7 +98,7 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> ScenePart:
     return ScenePart(
         scene="" if description is None else description.name,
         title="" if texts is None else library_text(texts.title or texts.name),
-        goal=library_text(static_scene.goal if texts is None else texts.goal),
+        goal=library_text(static_scene.goal) if texts is None else _goal(texts),
         key="" if editor is None else editor.state.task_key,
         can_edit_goal=editor is not None and other is None,
         controls="" if description is None else library_text(description.controls),
@@ -112,6 +114,12 @@ def scene_part(context: PanelContext, snapshot: Snapshot) -> ScenePart:
     )
 
 
+def _goal(scene: SceneDescription) -> str:
+    """Return a scene's goal; of one that follows from its rewards, the sentence made of them."""
+    made = goal_sentence(scene)
+    return made if made == scene.goal else library_text(scene.goal)
+
+
 def _shown_scene(context: PanelContext, snapshot: Snapshot) -> SceneDescription | None:
     """Return the scene of the recorded episode that pages see; None while they see the present."""
     frame_cache = context.player.frame_cache
@@ -125,11 +133,11 @@ def _stars(goals: StarGoals | None) -> StarGoals | None:
 
 def _legend(static_scene: StaticScene) -> list[LegendColour]:
     groups = dict(tuple(group_colours(static_scene).items())[:MAX_LEGEND_GROUPS])
-    groups |= {"other": UNKNOWN_GROUP, "nothing": RAY_MISS}
+    groups |= {_("other"): UNKNOWN_GROUP, _("nothing"): RAY_MISS}
     names: dict[Rgb, list[str]] = {}
     for group, colour in groups.items():
         names.setdefault(colour, []).append(group)
-    return [LegendColour(", ".join(alike), hex_colour(colour)) for colour, alike in names.items()]
+    return [LegendColour(join(alike, ", "), hex_colour(colour)) for colour, alike in names.items()]
 
 
 def _agents(context: PanelContext, static_scene: StaticScene) -> list[SceneAgent]:
@@ -152,4 +160,4 @@ def _agents(context: PanelContext, static_scene: StaticScene) -> list[SceneAgent
 def _driver(agent: BasicAgent | None) -> str:
     if agent is None:  # the runner has another world already
         return ""
-    return "You" if keys_of(agent) else driver_title(agent.brain)
+    return _("You") if keys_of(agent) else driver_title(agent.brain)

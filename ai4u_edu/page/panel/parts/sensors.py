@@ -12,6 +12,7 @@ from PIL import Image
 
 from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.panel.gallery import hint_of, words_of
 from ai4u_edu.snapshot.block_info import RayLayout, SensorInfo
 from ai4u_edu.snapshot.numbers import number
@@ -176,7 +177,7 @@ def reading_text(value: Any) -> str:
     if isinstance(value, str):
         return value[:MAX_TEXT_CHARS]
     if isinstance(value, bool | np.bool_):
-        return "yes" if value else "no"
+        return _("yes") if value else _("no")
     array = np.asarray(value)
     if array.dtype.kind not in "fiub":
         return ", ".join(map(str, array.ravel()[:MAX_LISTED_NUMBERS].tolist()))[:MAX_TEXT_CHARS]
@@ -190,7 +191,7 @@ def reading_text(value: Any) -> str:
 def _lines(sensor: SensorInfo, rows: Floats) -> list[ReadingLine]:
     """Return each number with its name, unit and range, and its older values, oldest first."""
     count = len(sensor.low)
-    names = sensor.slot_words or tuple(map(str, range(count)) if count > 1 else ("value",))
+    names = sensor.slot_words or tuple(map(str, range(count)) if count > 1 else (_("value"),))
     units = sensor.unit.split(", ")
     units = units if len(units) == count else [sensor.unit] * count
     return [
@@ -211,20 +212,23 @@ def _lines(sensor: SensorInfo, rows: Floats) -> list[ReadingLine]:
 def _strips(
     sensor: SensorInfo, rows: Floats, colours: Mapping[str, Rgb], rays: RayPicture | None
 ) -> list[ReadingStrip]:
-    ends = f"{number(float(sensor.low.min()))} to {number(float(sensor.high.max()))}"
-    ends = f"{ends} {sensor.unit}".strip()
-    cut = f", the first {MAX_BARS} of {rows.shape[1]}" if rows.shape[1] > MAX_BARS else ""
+    low, high = number(float(sensor.low.min())), number(float(sensor.high.max()))
+    ends = _("{low} to {high}", low=low, high=high)
+    if sensor.unit:
+        ends = _("{low} to {high} {unit}", low=low, high=high, unit=sensor.unit)
+    if rows.shape[1] > MAX_BARS:
+        ends = _("{ends}, the first {n} of {total}", ends=ends, n=MAX_BARS, total=rows.shape[1])
     count = 0 if rays is None else len(rays.groups)
     everything = slice(None)
     if rays is None or rows.shape[1] not in {count, 2 * count}:
-        return [_strip(sensor, rows, everything, f"{ends}{cut}")]
+        return [_strip(sensor, rows, everything, ends)]
     known = {"": RAY_MISS, "?": UNKNOWN_GROUP} | dict(colours)
     # a sensor reads its rightmost ray first
     hits = [hex_colour(known.get(group, UNKNOWN_GROUP)) for group in reversed(rays.groups)]
     if rows.shape[1] == count:
-        caption = f"each ray, left to right: {ends}{cut}"
+        caption = _("each ray, left to right: {ends}", ends=ends)
         return [_strip(sensor, rows, slice(None, None, -1), caption, hits)]
-    captions = "what each ray hit", f"distance (left to right): {ends}{cut}"
+    captions = _("what each ray hit"), _("distance (left to right): {ends}", ends=ends)
     return [
         _strip(sensor, rows, part, caption, hits)
         for part, caption in zip((RAY_GROUPS, RAY_DISTANCES), captions, strict=True)
@@ -268,7 +272,7 @@ def _pictures(
     if isinstance(legend, CodeLegend):
         latest = array.reshape(-1, *legend.shape)[-legend.planes :]
         distances = latest[legend.has_codes :]
-        greys = [_picture(shaded(plane), GREYS, "distance: dark is near") for plane in distances]
+        greys = [_picture(shaded(plane), GREYS, _("distance: dark is near")) for plane in distances]
         if not legend.has_codes:
             shades = [shaded(each.reshape(legend.shape)) for each in older]
             return greys + [_picture(cells, GREYS, "earlier") for cells in shades]

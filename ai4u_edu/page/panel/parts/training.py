@@ -2,6 +2,7 @@
 
 from typing import Literal
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.panel.parts.part import PanelPart
 from ai4u_edu.runtime.training_progress import TrainingProgress
 
@@ -33,5 +34,12 @@ def training_part(progress: TrainingProgress) -> TrainingPart:
 def _text(progress: TrainingProgress) -> str:
     decisions = f"{progress.decisions:,}"
     if progress.is_over:
-        return f"Training is over after {decisions} decisions. The best policy drives now."
-    return f"Learned from {decisions} of {progress.total:,} decisions so far."
+        return _(
+            "Training is over after {decisions} decisions. The best policy drives now.",
+            decisions=decisions,
+        )
+    return _(
+        "Learned from {decisions} of {total} decisions so far.",
+        decisions=decisions,
+        total=f"{progress.total:,}",
+    )
