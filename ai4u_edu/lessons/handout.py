@@ -11,7 +11,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.lessons.course import course_folder, lessons
 from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import FOLDER
-from ai4u_edu.lessons.translation import translated_lesson, translated_page
+from ai4u_edu.lessons.translation import GLOSSARY, translated_lesson, translated_page
 from ai4u_edu.locale import SOURCE
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
@@ -52,7 +52,7 @@ def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
     try:
         (folder / FOLDER).mkdir(parents=True, exist_ok=True)
         shutil.copytree(course_folder() / "pictures", folder / "pictures", dirs_exist_ok=True)
-        write_atomically(folder / "GLOSSARY.md", translated_page("GLOSSARY", language))
+        write_atomically(folder / f"{GLOSSARY}.md", translated_page(GLOSSARY, language))
         config = lab_config(folder) / "labconfig"
         config.mkdir(parents=True, exist_ok=True)
         write_atomically(config / "page_config.json", json.dumps(LAB, indent=1))

@@ -8,6 +8,7 @@ import ast
 import io
 import re
 import tokenize
+import unicodedata
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import groupby
@@ -17,6 +18,8 @@ from ai4u_edu.lessons.notebook import Cell
 from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, catalogue
 
 Translate = Callable[[str], str]
+GLOSSARY = "GLOSSARY"
+"""The page with the words of the course."""
 SETUP = "setup"
 """Tag of the cell with a notebook's imports."""
 LANGUAGE_CELL = "from ai4u_edu.locale import set_language\n\nset_language({code!r})"
@@ -75,6 +78,8 @@ def translated_lesson(name: str, cells: list[Cell], language: str) -> list[Cell]
 def translated_page(name: str, language: str) -> str:
     """Return a page of the course, such as its glossary, in a language.
 
+    The words of the glossary stand in the order of that language.
+
     Args:
         name: the page's name, such as ``GLOSSARY``.
         language: the language's code.
@@ -83,7 +88,15 @@ def translated_page(name: str, language: str) -> str:
     if language == SOURCE:
         return page
     translate = Catalogue(language, f"{LESSONS}/{name}").message
-    return translated_cell(Cell(page, is_text=True), translate).source + "\n"
+    text = translated_cell(Cell(page, is_text=True), translate).source
+    if name != GLOSSARY:
+        return f"{text}\n"
+    introduction, _, words = text.partition("\n- ")
+    return "\n- ".join([introduction, *sorted(words.split("\n- "), key=_without_accents)]) + "\n"
+
+
+def _without_accents(text: str) -> str:
+    return unicodedata.normalize("NFD", text).encode("ascii", "ignore").decode().lower()
 
 
 def translated_title(lesson: Lesson) -> str:

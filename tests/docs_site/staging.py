@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from ai4u_edu.locale import SOURCE, Catalogue, Text
+from ai4u_edu.lessons.translation import translated_page
+from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, Text
 from tests.translations import PAGES, SITE, page_translation, translation
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -131,6 +132,8 @@ class Staging:
         domain = next((name for name, page in PAGES.items() if page == path), "")
         if self.language == SOURCE or not domain:
             return text
+        if domain.startswith(f"{LESSONS}/"):
+            return translated_page(path.stem, self.language)
         return page_translation(self.language, domain, text)
 
     def _line(self, line: str, path: Path, name: str, is_code: bool) -> str:

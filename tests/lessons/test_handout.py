@@ -38,6 +38,14 @@ def test_the_glossary_is_handed_out_in_the_language_of_the_notebooks(tmp_path: P
     assert (tmp_path / "GLOSSARY.md").read_text(encoding="utf-8").startswith("# Glossary\n")
 
 
+def test_words_of_the_glossary_are_in_the_order_of_its_language(tmp_path: Path) -> None:
+    hand_out(tmp_path, "pt_BR")
+    lines = (tmp_path / "GLOSSARY.md").read_text(encoding="utf-8").splitlines()
+    words = [line.split("**")[1] for line in lines if line.startswith("- ")]
+    assert words[:2] == ["ação", "adversário"]
+    assert words.index("épsilon") + 1 == words.index("erro padrão")
+
+
 def test_a_second_time_everything_stays(tmp_path: Path) -> None:
     hand_out(tmp_path)
     mine = tmp_path / NAMES[1]
