@@ -34,6 +34,7 @@ from ai4u_edu.blocks.agent_view import AgentInput
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Accepted
 from ai4u_edu.blocks.parameterized import Parameterized
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]
@@ -159,7 +160,10 @@ class BasicAgent(Parameterized):
         """The blocks bound to the body; made by :meth:`setup`."""
         if self.bound_blocks_or_none is None:
             raise SetupError(
-                f"agent {self.id!r} is in no world yet; expected ControlRequestor(world, [agent])"
+                _(
+                    "agent {id!r} is in no world yet; expected ControlRequestor(world, [agent])",
+                    id=self.id,
+                )
             )
         return self.bound_blocks_or_none
 
@@ -188,8 +192,12 @@ class BasicAgent(Parameterized):
     def action_handler(self, handler: Callable[..., None] | None) -> None:
         if handler is not None and not callable(handler):
             raise SetupError(
-                f"agent {self.id!r}: action_handler: expected a function, as in "
-                f"agent.action_handler = lambda body, numbers: ..., got {handler!r}"
+                _(
+                    "agent {id!r}: action_handler: expected a function, as in "
+                    "agent.action_handler = lambda body, numbers: ..., got {handler}",
+                    id=self.id,
+                    handler=repr(handler),
+                )
             )
         self._action_handler = handler
         for actuator in self.actuators:
@@ -215,7 +223,9 @@ class BasicAgent(Parameterized):
     def percept(self) -> Percept:
         """The last percept."""
         if self._percept is None:
-            raise SetupError(f"agent {self.id!r} has sensed nothing yet; expected a reset first")
+            raise SetupError(
+                _("agent {id!r} has sensed nothing yet; expected a reset first", id=self.id)
+            )
         return self._percept
 
     @property
@@ -304,8 +314,12 @@ class BasicAgent(Parameterized):
             paid = math.nan
         if not math.isfinite(paid):
             raise ReadingError(
-                f"agent {self.id!r}, add_reward of {name!r}: expected a finite number, "
-                f"got {amount!r}"
+                _(
+                    "agent {id!r}, add_reward of {name!r}: expected a finite number, got {amount}",
+                    id=self.id,
+                    name=name,
+                    amount=repr(amount),
+                )
             )
         self.ledger.pay(name, paid)
         self._done_requested = self._done_requested or request_done
@@ -515,13 +529,23 @@ class BasicAgent(Parameterized):
             for name in action:
                 if name not in known:
                     raise ActionError(
-                        f"agent {self.id!r} has no actuator {name!r}; {suggest(str(name), known)}"
+                        _(
+                            "agent {id!r} has no actuator {name!r}; {hint}",
+                            id=self.id,
+                            name=name,
+                            hint=suggest(str(name), known),
+                        )
                     ) from None
         sizes = {name: len(each.limits()[0]) for name, each in known.items()}
         example = {name: [0.0] * size for name, size in sizes.items() if size}
         raise ActionError(
-            f"agent {self.id!r}: expected an action by actuator name, such as {example}, "
-            f"got {action!r}"
+            _(
+                "agent {id!r}: expected an action by actuator name, such as {example}, got "
+                "{action}",
+                id=self.id,
+                example=str(example),
+                action=repr(action),
+            )
         ) from None
 
 
@@ -535,10 +559,15 @@ def _as_brain(given: object) -> Brain:
         return given
     if _can_drive(given):
         return LocalBrain(controller=given)  # type: ignore[arg-type]  # _can_drive checked it
-    problem = f"the class {given.__name__}" if isinstance(given, type) else repr(given)
+    got = repr(given)
+    if isinstance(given, type):
+        got = _("the class {name}", name=given.__name__)
     raise SetupError(
-        f"expected a brain, a controller or a function from percept to action, got {problem}; "
-        "a brain is made as in LocalBrain(controller=WASDRBMoveController())"
+        _(
+            "expected a brain, a controller or a function from percept to action, got {got}; "
+            "a brain is made as in LocalBrain(controller=WASDRBMoveController())",
+            got=got,
+        )
     )
 
 

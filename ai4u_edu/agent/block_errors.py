@@ -7,6 +7,8 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_frames import calls_of_error, find_place
 from ai4u_edu.base.errors import AI4UError, BlockError, shorten, text_of
 from ai4u_edu.blocks import RemoteBrain
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 
 MAX_SENTENCE_CHARS = 1000
 """A block may raise an error with a text of any length; it is kept, logged and sent to pages."""
@@ -22,14 +24,18 @@ def sentence_of(error: BaseException, agents: Iterable[BasicAgent] = ()) -> str:
     >>> sentence_of(ValueError("no idea"))
     'ValueError: no idea'
     """
-    notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
-    text = shorten(str(error), MAX_SENTENCE_CHARS - min(len(notes), MAX_SENTENCE_CHARS // 2))
-    sentence = f"{type(error).__name__}: {text}{shorten(notes, MAX_SENTENCE_CHARS // 2)}"
+    notes = [Text(" ({note})", {"note": note}) for note in getattr(error, "__notes__", ())]
+    noted: str = join([*notes], "") if notes else ""
+    text = shorten(text_of(error), MAX_SENTENCE_CHARS - min(len(noted), MAX_SENTENCE_CHARS // 2))
+    told = join([text, shorten(noted, MAX_SENTENCE_CHARS // 2)], "")
+    name = type(error).__name__
     if isinstance(error, Exception):
-        return sentence
+        return join([name, told], ": ")
     place = find_place(calls_of_error(error.__traceback__), agents)
-    where = f", {place.where}" if place.where else ""
-    return f"{sentence.removesuffix(': ')} (raised by {place}{where})"
+    where = join([place.title, place.where], ", ") if place.where else place.title
+    return _(
+        "{error} (raised by {place})", error=join([name, told], ": ") if told else name, place=where
+    )
 
 
 def message_of(error: BaseException) -> str:
@@ -67,9 +73,9 @@ def may_be_kept(error: BaseException) -> bool:
 def reason_for_no_decision(agent: BasicAgent) -> str:
     """Say why an agent that was asked has taken no decision."""
     if agent.stopped:
-        return "its brain has stopped it; a reset begins a new episode"
+        return _("its brain has stopped it; a reset begins a new episode")
     if agent.paused:
-        return "its brain has paused it"
+        return _("its brain has paused it")
     if isinstance(agent.brain, RemoteBrain):
-        return agent.brain.status().reason or "it waits for its script"
-    return f"{agent.brain.title()} answered with a command in place of an action"
+        return agent.brain.status().reason or _("it waits for its script")
+    return _("{title} answered with a command in place of an action", title=agent.brain.title())

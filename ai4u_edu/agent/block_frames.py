@@ -12,13 +12,15 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.events import Event
 from ai4u_edu.blocks import Actuator, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.block import Block
+from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 
-KINDS: tuple[tuple[type[Block], str], ...] = (
-    (Sensor, "Sensor"),
-    (Actuator, "Actuator"),
-    (RewardFunc, "Reward function"),
-    (Brain, "Brain"),
-    (Controller, "Controller"),
+KINDS: tuple[tuple[type[Block], Text], ...] = (
+    (Sensor, _("Sensor {name}")),
+    (Actuator, _("Actuator {name}")),
+    (RewardFunc, _("Reward function {name}")),
+    (Brain, _("Brain {name}")),
+    (Controller, _("Controller {name}")),
 )
 """The kinds of blocks, with their names in a sentence."""
 NAME_FIELDS = ("perception_key", "action_name", "name")
@@ -43,7 +45,13 @@ class CodePlace:
         >>> str(CodePlace("Sensor WallDistance 'wall'", "0", "my_blocks.py, line 12"))
         "Sensor WallDistance 'wall' of agent '0'"
         """
-        return (self.block or "The world") + (f" of agent {self.agent!r}" if self.agent else "")
+        return str(self.title)
+
+    @property
+    def title(self) -> str:
+        """The same, as a text that can be translated."""
+        block = self.block or _("The world")
+        return _("{block} of agent {id!r}", block=block, id=self.agent) if self.agent else block
 
 
 def frames_of_thread(thread_id: int) -> list[FrameType]:
@@ -67,7 +75,7 @@ def find_place(
         calls: frames and their current lines, outermost call first.
         agents: of the world that runs; one of them may own the block.
     """
-    owners = [_first_argument(frame) for frame, _ in calls]
+    owners = [_first_argument(frame) for frame, _line in calls]
     first = next((n for n, each in enumerate(owners) if isinstance(each, Block)), None)
     if first is None:  # a handler of a block's own is that block's
         first = next((n for n, each in enumerate(owners) if isinstance(each, Event)), 0)
@@ -75,10 +83,13 @@ def find_place(
     inner = calls[first:]
     own = [call for call in inner if _is_users(call[0])]
     frame_and_line = (own or inner)[-1:]
-    where = "".join(f"{_file_of(frame)}, line {line}" for frame, line in frame_and_line)
+    places = [
+        _("{file}, line {line}", file=_file_of(frame), line=line) for frame, line in frame_and_line
+    ]
+    where: str = places[0] if places else ""
     if isinstance(owner, Event):
         agent = calls[first][0].f_locals.get("agent")
-        return CodePlace(f"Handler of {owner.name}", getattr(agent, "id", ""), where)
+        return CodePlace(_("Handler of {event}", event=owner.name), getattr(agent, "id", ""), where)
     if not isinstance(owner, Block):
         return CodePlace("", "", where)
     return CodePlace(describe(owner), _agent_of(owner, agents, calls[:first]), where)
@@ -108,7 +119,7 @@ def line_at(code: CodeType, instruction: int) -> int:
         code: the function's.
         instruction: offset of the instruction, such as ``frame.f_lasti``.
     """
-    lines = [line for start, _, line in code.co_lines() if line and start <= instruction]
+    lines = [line for start, _end, line in code.co_lines() if line and start <= instruction]
     return lines[-1] if lines else code.co_firstlineno
 
 
@@ -119,15 +130,15 @@ def describe(block: Block) -> str:
     >>> describe(TouchSensor(target="box"))
     "Sensor TouchSensor 'touch'"
     """
-    kind = next((word for base, word in KINDS if isinstance(block, base)), "Block")
+    kind = next((words for base, words in KINDS if isinstance(block, base)), _("Block {name}"))
     if isinstance(block, Brain):
         controller = getattr(block, "controller", None)
         inner = f"({type(controller).__name__})" if isinstance(controller, Block) else ""
-        return f"{kind} {type(block).__name__}{inner}"
+        return Text(kind.msgid, {"name": f"{type(block).__name__}{inner}"})
     names = (getattr(block, field, "") for field in NAME_FIELDS)
     name = next((name for name in names if isinstance(name, str) and name), "")
     shown = f" {name[:MAX_NAME_CHARS]!r}" if name else ""
-    return f"{kind} {type(block).__name__}{shown}"
+    return Text(kind.msgid, {"name": f"{type(block).__name__}{shown}"})
 
 
 def _first_argument(frame: FrameType) -> object:
@@ -139,7 +150,7 @@ def _first_argument(frame: FrameType) -> object:
 def _file_of(frame: FrameType) -> str:
     """Return the name of a frame's file; of a notebook's cell it would be a number."""
     path = Path(frame.f_code.co_filename)
-    return "a notebook's cell" if path.parent.name.startswith("ipykernel_") else path.name
+    return _("a notebook's cell") if path.parent.name.startswith("ipykernel_") else path.name
 
 
 def _agent_of(
@@ -149,7 +160,7 @@ def _agent_of(
         owned = (*agent.sensors, *agent.actuators, *agent.rewards, *agent.brains)
         if any(each is block for each in owned):
             return agent.id
-    for frame, _ in reversed(outer):  # an agent that is about to be put into the world
+    for frame, _line in reversed(outer):  # an agent that is about to be put into the world
         for value in frame.f_locals.values():
             if isinstance(value, BasicAgent):
                 return value.id

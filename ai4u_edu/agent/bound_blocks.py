@@ -22,7 +22,7 @@ from weakref import ref
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
 from ai4u_edu.base.attributes import refuse_stray
-from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError
+from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError, text_of
 from ai4u_edu.blocks import (
     Actuator,
     AgentArraySensor,
@@ -39,11 +39,19 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block, walk_blocks
 from ai4u_edu.blocks.percept import TEXTS, Texts
 from ai4u_edu.blocks.sensors.sensor_state import depends_on_status, read_status_again
+from ai4u_edu.locale import Text, join, listed
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, World, WorldView
 
 _OWNER = "_owner_ref"
 """Attribute of a block that refers to the agent that claimed it last."""
 _is_enabled = attrgetter("enabled")
+
+_SET_UP, _RESET = _("while {block} of {agent} was set up"), _("while {block} of {agent} was reset")
+_READING, _PAYING = (
+    _("while {block} of {agent} was reading"),
+    _("while {block} of {agent} was paying"),
+)
 
 
 class _Owner(AgentView, Protocol):
@@ -92,9 +100,9 @@ class BoundBlocks:
         self.sensors = [sensor for sensor in self._with_standard_sensors() if sensor.is_active]
         active = [actuator for actuator in agent.actuators if actuator.is_active]
         _check_each_once(agent, [*self.rewards, *self.sensors, *active, self.brain])
-        _check_unique(agent, "reward function", "name", self.rewards)
-        _check_unique(agent, "sensor", "perception_key", self.sensors)
-        _check_unique(agent, "actuator", "action_name", active)
+        _check_unique(agent, _TWO_REWARDS, "name", self.rewards)
+        _check_unique(agent, _TWO_SENSORS, "perception_key", self.sensors)
+        _check_unique(agent, _TWO_ACTUATORS, "action_name", active)
         self.actuators = {actuator.action_name: actuator for actuator in active}
         self.tick_actuators = [
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
@@ -119,7 +127,7 @@ class BoundBlocks:
         self._lay_out_memory()
         for actuator in self.actuators.values():
             self._set_up(actuator)
-            with self._error_context(actuator, "was set up"):
+            with self._error_context(actuator, _SET_UP):
                 actuator.prepare()
         if self.brain is not ready_brain:
             self._set_up(self.brain)
@@ -164,7 +172,7 @@ class BoundBlocks:
         was_enabled, brain.enabled = brain.enabled, True
         try:
             self._set_up(brain)
-            with self._error_context(brain, "was reset"):
+            with self._error_context(brain, _RESET):
                 brain.on_reset(self._agent, self.view)
         except BaseException:
             brain.enabled = was_enabled
@@ -196,7 +204,9 @@ class BoundBlocks:
                 agent, [each for each in agent.brains if _owner_of(each) in (None, agent)]
             )
         except SetupError as error:
-            raise SetupError(f"{error}; or call agent.use_brain(brain)") from None
+            raise SetupError(
+                _("{error}; or call agent.use_brain(brain)", error=text_of(error))
+            ) from None
         if brain is not self.brain:
             self.swap_brain(brain)
         self._remember_switches()
@@ -223,7 +233,7 @@ class BoundBlocks:
                 if sensor.is_active:
                     read_status_again(sensor, self.body, self.view)
         except Exception as error:
-            self._raise_as_reading(error, sensor, "was reading")
+            self._raise_as_reading(error, sensor, _READING)
             raise
         return Percept(self.layout, bytes(self._memory), percept.texts)
 
@@ -254,7 +264,7 @@ class BoundBlocks:
             for block in (*self.actuators.values(), self.brain):
                 block.on_reset(agent, view)
         except Exception as error:
-            self._raise_with_context(error, block, "was reset")
+            self._raise_with_context(error, block, _RESET)
             raise
 
     def _check_all_bound(self) -> None:
@@ -263,9 +273,13 @@ class BoundBlocks:
         for block in blocks:
             if block.is_active and id(block) not in bound:
                 raise SetupError(
-                    f"agent {agent.id!r}: {block_label(block)} was switched on, or added, after "
-                    "the agent was set up, and would have no effect; call "
-                    "agent.setup(world), or make it active before ControlRequestor(world, [agent])"
+                    _(
+                        "agent {id!r}: {block} was switched on, or added, after the agent was set "
+                        "up, and would have no effect; call agent.setup(world), or make it active "
+                        "before ControlRequestor(world, [agent])",
+                        id=agent.id,
+                        block=block_label(block),
+                    )
                 )
 
     def _remember_fixed(self) -> None:
@@ -275,7 +289,7 @@ class BoundBlocks:
         self._fixed = [(block, block.fixed_at_setup(), len(vars(block))) for block in blocks]
 
     def _check_attributes(self, block: Block) -> None:
-        where = f"agent {self._agent.id!r}, {block_label(block)}: "
+        where = _("agent {id!r}, {block}", id=self._agent.id, block=block_label(block))
         refuse_stray(block, where, block.parameters())
 
     def _check_fixed(self) -> None:
@@ -287,9 +301,15 @@ class BoundBlocks:
                 continue
             name = next(name for name, value in now.items() if value != before[name])
             raise SetupError(
-                f"agent {self._agent.id!r}, {block_label(block)}: {name} was set to "
-                f"{getattr(block, name)!r} after the agent was set up, and would have no effect; "
-                "call agent.setup(world), or set it before ControlRequestor(world, [agent])"
+                _(
+                    "agent {id!r}, {block}: {name} was set to {value} after the agent was set "
+                    "up, and would have no effect; call agent.setup(world), or set it before "
+                    "ControlRequestor(world, [agent])",
+                    id=self._agent.id,
+                    block=block_label(block),
+                    name=name,
+                    value=repr(getattr(block, name)),
+                )
             )
 
     def sense(self) -> Percept:
@@ -306,7 +326,7 @@ class BoundBlocks:
             for sensor, read in self._text_sensors:
                 texts.append(read(sensor, body, view))
         except Exception as error:
-            self._raise_as_reading(error, sensor, "was reading")
+            self._raise_as_reading(error, sensor, _READING)
             raise
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 
@@ -336,11 +356,11 @@ class BoundBlocks:
                     if reward.cause_episode_to_end and reward.ends(amount):
                         ends = True
         except Exception as error:
-            self._raise_as_reading(error, reward, "was paying")
+            self._raise_as_reading(error, reward, _PAYING)
             raise
         return ends
 
-    def _raise_as_reading(self, error: Exception, block: Block | None, doing: str) -> None:
+    def _raise_as_reading(self, error: Exception, block: Block | None, doing: Text) -> None:
         """Add block and agent to an error; raise one of this package's as a ReadingError."""
         if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
             problem = ReadingError(str(error))
@@ -377,23 +397,23 @@ class BoundBlocks:
         self.attach_sensors()
 
     def _kind_of(self, sensor: Sensor) -> str:
-        with self._error_context(sensor, "was set up"):
+        with self._error_context(sensor, _SET_UP):
             return sensor.reading_kind()
 
     def attach_sensors(self) -> None:
         """Connect the sensors to their places in memory."""
         for sensor in self._number_sensors:
-            with self._error_context(sensor, "was set up"):
+            with self._error_context(sensor, _SET_UP):
                 place = self.layout.view(self._memory, sensor.perception_key)
                 name = f"{self._agent.id}/{sensor.perception_key}"
                 sensor.attach(place, partial(self.view.random, name))
 
     def _set_up(self, block: Block) -> None:
-        with self._error_context(block, "was set up"):
+        with self._error_context(block, _SET_UP):
             block.on_setup(self._agent, self.view)
 
     @contextmanager
-    def _error_context(self, block: Block | None, doing: str = "") -> Iterator[None]:
+    def _error_context(self, block: Block | None, doing: Text = _SET_UP) -> Iterator[None]:
         """Add agent and block to an error that is raised inside."""
         try:
             yield
@@ -401,14 +421,16 @@ class BoundBlocks:
             self._raise_with_context(error, block, doing)
             raise
 
-    def _raise_with_context(self, error: Exception, block: Block | None, doing: str) -> None:
+    def _raise_with_context(self, error: Exception, block: Block | None, doing: Text) -> None:
         """Add agent and block to an error; raise one of this package's as a BlockError."""
         if not isinstance(error, AI4UError):
             add_context(error, self._agent, block, doing)
         elif not isinstance(block, _LostBrain):
-            who = f"agent {self._agent.id!r}"
+            who = _("agent {id!r}", id=self._agent.id)
             problem = BlockError(
-                f"{who}, {block_label(block)}: {error}" if block else f"{who}: {error}"
+                join(
+                    [join([who, block_label(block)], ", ") if block else who, text_of(error)], ": "
+                )
             )
             problem.where = (self._agent, block or "body")
             raise problem from error
@@ -453,8 +475,13 @@ def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:
     for block in walk_blocks(blocks):
         if id(block) in known:
             raise SetupError(
-                f"agent {agent.id!r}: the same {block_label(block)} stands in it twice; "
-                f"make one for each place, as in {type(block).__name__}(...) there as well"
+                _(
+                    "agent {id!r}: the same {block} stands in it twice; make one for each place, "
+                    "as in {type}(...) there as well",
+                    id=agent.id,
+                    block=block_label(block),
+                    type=type(block).__name__,
+                )
             )
         known.add(id(block))
 
@@ -472,8 +499,14 @@ def _claim(agent: _Owner, blocks: Iterable[Block]) -> None:
             continue
         if _are_together(agent, owner):
             raise SetupError(
-                f"agents {owner.id!r} and {agent.id!r} share the same {block_label(block)}; "
-                f"make one for each agent, as in {type(block).__name__}(...) for each"
+                _(
+                    "agents {id!r} and {id2!r} share the same {block}; make one for each agent, "
+                    "as in {type}(...) for each",
+                    id=owner.id,
+                    id2=agent.id,
+                    block=block_label(block),
+                    type=type(block).__name__,
+                )
             )
         _take_away(owner, block, agent)
     for block in claimed:
@@ -502,9 +535,14 @@ def _take_away(owner: _Owner, block: Block, agent: _Owner) -> None:
     lost.replace_brain(
         bound.brain,
         block,
-        f"agent {owner.id!r} has lost its {block_label(block)} to agent {agent.id!r} of another "
-        "ControlRequestor, which was made later; make one for each agent, or make the "
-        f"ControlRequestor of agent {owner.id!r} anew",
+        _(
+            "agent {id!r} has lost its {block} to agent {other!r} of another ControlRequestor, "
+            "which was made later; make one for each agent, or make the ControlRequestor of agent "
+            "{id!r} anew",
+            id=owner.id,
+            block=block_label(block),
+            other=agent.id,
+        ),
     )
     bound.brain = lost
 
@@ -520,32 +558,59 @@ def _enabled_brain(agent: _Owner, brains: Sequence[Brain]) -> Brain:
         SetupError: none or several are enabled.
     """
     enabled = [brain for brain in brains if brain.enabled]
-    who = f"agent {agent.id!r}"
     if not enabled:
         problem = SetupError(
-            f"{who}: expected exactly one enabled brain, got none"
-            + (f" ({len(brains)} are switched off)" if brains else "")
-            + "; add one, such as brains=[LocalBrain(controller=WASDRBMoveController())]"
+            _(
+                "agent {id!r}: expected exactly one enabled brain, got none ({count} are switched "
+                "off); add one, such as brains=[LocalBrain(controller=WASDRBMoveController())]",
+                id=agent.id,
+                count=len(brains),
+            )
+            if brains
+            else _(
+                "agent {id!r}: expected exactly one enabled brain, got none; add one, such as "
+                "brains=[LocalBrain(controller=WASDRBMoveController())]",
+                id=agent.id,
+            )
         )
         problem.where = (agent, "brains")
         raise problem
     if len(enabled) > 1:
-        names = " and ".join(brain.title() for brain in enabled)
+        names = [brain.title() for brain in enabled]
         problem = SetupError(
-            f"{who}: expected exactly one enabled brain, got {len(enabled)}: {names}; "
-            "set enabled=False on the others"
+            _(
+                "agent {id!r}: expected exactly one enabled brain, got {count}: {names}; set "
+                "enabled=False on the others",
+                id=agent.id,
+                count=len(enabled),
+                names=listed(names),
+            )
         )
         problem.where = (agent, enabled[1])
         raise problem
     return enabled[0]
 
 
-def _check_unique(agent: _Owner, what: str, field: str, blocks: Sequence[Block]) -> None:
+_TWO_REWARDS = _(
+    "agent {id!r}: two reward functions have the name {name!r}; give one of them another, as in "
+    "name='{name}_2'"
+)
+_TWO_SENSORS = _(
+    "agent {id!r}: two sensors have the perception_key {name!r}; give one of them another, as in "
+    "perception_key='{name}_2'"
+)
+_TWO_ACTUATORS = _(
+    "agent {id!r}: two actuators have the action_name {name!r}; give one of them another, as in "
+    "action_name='{name}_2'"
+)
+
+
+def _check_unique(agent: _Owner, two: Text, field: str, blocks: Sequence[Block]) -> None:
     """Raise a SetupError if two blocks of an agent have the same name.
 
     Args:
         agent: the owner of the blocks.
-        what: their kind, for the message.
+        two: the message, with the agent's id and the name.
         field: the parameter that holds the name.
         blocks: all blocks of that kind.
     """
@@ -553,10 +618,7 @@ def _check_unique(agent: _Owner, what: str, field: str, blocks: Sequence[Block])
     for block in blocks:
         name = getattr(block, field)
         if name in names:
-            problem = SetupError(
-                f"agent {agent.id!r}: two {what}s have the {field} {name!r}; "
-                f"give one of them another, as in {field}='{name}_2'"
-            )
+            problem = SetupError(Text(two.msgid, {"id": agent.id, "name": name}))
             problem.where = (agent, block)
             raise problem
         names.add(name)
@@ -577,12 +639,12 @@ def _read_texts(sensor: Sensor, body: BodyView, view: WorldView) -> Texts:
         return ()
     texts = sensor.read(body, view)
     if not isinstance(texts, list | tuple) or not all(isinstance(each, str) for each in texts):
-        raise ReadingError(f"expected a list of texts, got {texts!r}")
+        raise ReadingError(_("expected a list of texts, got {texts}", texts=repr(texts)))
     return tuple(texts)
 
 
 def _refuse_amount(amount: float) -> None:
-    raise ReadingError(f"expected a finite number, got {amount}")
+    raise ReadingError(_("expected a finite number, got {amount}", amount=amount))
 
 
 def _as_amount(value: object) -> float:
@@ -594,4 +656,6 @@ def _as_amount(value: object) -> float:
     try:
         return float(value)  # type: ignore[arg-type]  # anything may come; the next line says so
     except (TypeError, ValueError):
-        raise ReadingError(f"expected a number from on_update, got {value!r}") from None
+        raise ReadingError(
+            _("expected a number from on_update, got {value}", value=repr(value))
+        ) from None

@@ -60,6 +60,7 @@ from ai4u_edu.agent.error_context import add_context
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import World
 from ai4u_edu.world.state import WorldState
 
@@ -188,7 +189,11 @@ class ControlRequestor:
             if agent.id == agent_id:
                 return agent
         raise NameNotFoundError(
-            f"no agent has the id {agent_id!r}; {suggest(agent_id, [a.id for a in self.agents])}"
+            _(
+                "no agent has the id {agent_id}; {hint}",
+                agent_id=repr(agent_id),
+                hint=suggest(agent_id, [a.id for a in self.agents]),
+            )
         )
 
     def reset(self, seed: int | None = None, options: Options | None = None) -> None:
@@ -269,8 +274,12 @@ class ControlRequestor:
                 held_since = held_since or time.monotonic()
                 if time.monotonic() - held_since > HOLD_LIMIT_S:
                     raise NoDecisionError(
-                        f"agent {agent.id!r} can't end its decision: another agent's brain has had "
-                        f"the world wait for {HOLD_LIMIT_S:g} s"
+                        _(
+                            "agent {id!r} can't end its decision: another agent's brain has had "
+                            "the world wait for {seconds:g} s",
+                            id=agent.id,
+                            seconds=HOLD_LIMIT_S,
+                        )
                     )
             else:
                 held_since = None
@@ -415,7 +424,7 @@ class _DecisionCycle:
         try:
             answer = brain.decide(agent.percept)
         except Exception as error:
-            add_context(error, agent, brain, "was deciding")
+            add_context(error, agent, brain, _("while {block} of {agent} was deciding"))
             raise
         if isinstance(answer, Command):
             if answer is not Command.HOLD:
@@ -467,7 +476,10 @@ class _DecisionCycle:
         bound = self.agent.bound_blocks
         if bound.world is not self._bound.world:
             raise SetupError(
-                f"agent {self.agent.id!r} was set up in another world since; make one for each"
+                _(
+                    "agent {id!r} was set up in another world since; make one for each",
+                    id=self.agent.id,
+                )
             )
         self._bound = bound
 
@@ -492,7 +504,7 @@ class _DecisionCycle:
             for actuator, numbers in self._action:
                 actuator.act(body, numbers)
         except Exception as error:
-            add_context(error, agent, actuator, "was acting")
+            add_context(error, agent, actuator, _("while {block} of {agent} was acting"))
             raise
         if agent.end_of_apply_action.handlers:
             agent.end_of_apply_action.fire(agent)
@@ -514,7 +526,7 @@ class _DecisionCycle:
             for block in bound.tick_rewards:
                 block.on_tick(bound.body, bound.view)
         except Exception as error:
-            add_context(error, self.agent, block, "was in its on_tick")
+            add_context(error, self.agent, block, _("while {block} of {agent} was in its on_tick"))
             raise
         is_last = self._tick >= self._ticks or bound.body.fallen
         if is_last:
@@ -556,7 +568,7 @@ class _DecisionCycle:
                     break
         except Exception as error:
             if actuator is not None:
-                add_context(error, self.agent, actuator, "was acting")
+                add_context(error, self.agent, actuator, _("while {block} of {agent} was acting"))
             raise
         ticks = world.ticks - began
         self._end()
@@ -576,14 +588,32 @@ def _check_members(world: object, agents: object) -> None:
     """
     example = "as in ControlRequestor(world, [agent])"
     if not isinstance(world, World):
-        raise SetupError(f"expected a World first, {example}, got {_shown(world)}")
+        raise SetupError(
+            _(
+                "expected a World first, {example}, got {got}",
+                example=example,
+                got=_shown(world),
+            )
+        )
     if not isinstance(agents, Sequence) or isinstance(agents, str):
-        raise SetupError(f"expected a list of agents, {example}, got {_shown(agents)}")
+        raise SetupError(
+            _(
+                "expected a list of agents, {example}, got {got}",
+                example=example,
+                got=_shown(agents),
+            )
+        )
     for agent in agents:
         if not isinstance(agent, BasicAgent):
-            raise SetupError(f"expected agents in the list, {example}, got {_shown(agent)}")
+            raise SetupError(
+                _(
+                    "expected agents in the list, {example}, got {got}",
+                    example=example,
+                    got=_shown(agent),
+                )
+            )
     if not agents:
-        raise SetupError("expected at least one agent, got none")
+        raise SetupError(_("expected at least one agent, got none"))
     _check_unique(agents)
 
 
@@ -592,13 +622,20 @@ def _check_unique(agents: Sequence[BasicAgent]) -> None:
     for index, agent in enumerate(agents):
         for other in agents[:index]:
             if agent.id == other.id:
-                problem = SetupError(f"two agents have the id {agent.id!r}; ids are unique")
+                problem = SetupError(
+                    _("two agents have the id {id!r}; ids are unique", id=agent.id)
+                )
                 problem.where = (agent, "id")
                 raise problem
             if agent.body_name == other.body_name:
                 problem = SetupError(
-                    f"agents {other.id!r} and {agent.id!r} have the same body "
-                    f"{agent.body_name!r}; expected a body for each"
+                    _(
+                        "agents {id!r} and {id2!r} have the same body {body!r}; expected a "
+                        "body for each",
+                        id=other.id,
+                        id2=agent.id,
+                        body=agent.body_name,
+                    )
                 )
                 problem.where = (agent, "body")
                 raise problem

@@ -13,11 +13,20 @@ from gymnasium.spaces import Space
 from pydantic import BaseModel, ValidationError
 
 from ai4u_edu.agent.agent import BasicAgent
-from ai4u_edu.base.errors import NameNotFoundError, ParameterError, SetupError, shown, suggest
+from ai4u_edu.base.errors import (
+    NameNotFoundError,
+    ParameterError,
+    SetupError,
+    shown,
+    suggest,
+    text_of,
+)
 from ai4u_edu.base.parameters import DataPath, explain, format_problems, is_open
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
 from ai4u_edu.blocks.parameterized import Parameterized
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, World, redescribe
 
 Options = Mapping[str, Any]
@@ -28,7 +37,7 @@ AGENT_NUMBERS = ("max_steps_per_episode", "reward_scale")
 """Numbers of an agent itself; its other ones are for AI4U's scripts."""
 NO_QUANTITIES = {"collision_layer", "collision_mask"}
 """Numbers of a body that are sets of bits."""
-FIXED = {"ticks_per_second": "a tick's length", "priority": "the order of agents"}
+FIXED = {"ticks_per_second": _("a tick's length"), "priority": _("the order of agents")}
 """Numbers that no reset can change, with what they decide."""
 KINDS = {FloorDescription: "floors", AreaDescription: "areas", BodyDescription: "bodies"}
 
@@ -238,15 +247,20 @@ class EpisodeOptions:
         """
         if not isinstance(options, Mapping):
             raise ParameterError(
-                "options: expected numbers by name, as in "
-                f"options={{'gravity': 1.6}}, got {shown(options)}"
+                _(
+                    "options: expected numbers by name, as in options={{'gravity': 1.6}}, got "
+                    "{got}",
+                    got=shown(options),
+                )
             )
         known = self.parameters() if options else {}
         named: dict[str, Any] = {}
         for given, value in options.items():
             name = _resolved(given, known)
             if name in named:
-                raise ParameterError(f"options: {name} was given twice; expected it once")
+                raise ParameterError(
+                    _("options: {name} was given twice; expected it once", name=name)
+                )
             named[name] = _as_numbers(name, value, is_pair=known[name].declared.is_pair)
         return named
 
@@ -267,8 +281,12 @@ class EpisodeOptions:
             field, (kind, *place) = parameter.declared.name, parameter.owner
             if field in FIXED:
                 raise ParameterError(
-                    f"options: {name}: {FIXED[field]} is the same in all episodes; "
-                    "make another environment for it"
+                    _(
+                        "options: {name}: {fixed} is the same in all episodes; make another "
+                        "environment for it",
+                        name=name,
+                        fixed=FIXED[field],
+                    )
                 )
             if kind == "world":
                 settings[field] = value
@@ -361,8 +379,14 @@ class EpisodeOptions:
             for key, space in _spaces_of(agent).items():
                 if space != base[key]:
                     raise SetupError(
-                        f"options: agent {agent.id!r}, {key}: expected numbers that keep its space "
-                        f"{base[key]}, got {space}; make another environment for it"
+                        _(
+                            "options: agent {id!r}, {key}: expected numbers that keep its space "
+                            "{base}, got {space}; make another environment for it",
+                            id=agent.id,
+                            key=key,
+                            base=str(base[key]),
+                            space=str(space),
+                        )
                     )
 
     def _check_place(self, name: str) -> None:
@@ -370,8 +394,12 @@ class EpisodeOptions:
         other = None if world[name].fallen else world.find_overlap(world[name])
         if other is not None:
             raise SetupError(
-                f"options: body {name!r} would overlap body {other.name!r}; choose another place "
-                "or size"
+                _(
+                    "options: body {name!r} would overlap body {name2!r}; choose another place or "
+                    "size",
+                    name=name,
+                    name2=other.name,
+                )
             )
 
 
@@ -416,10 +444,10 @@ def _declared(name: str, about: Mapping[str, Any]) -> DeclaredNumber | None:
     low, high = number.get("minimum", -math.inf), number.get("maximum", math.inf)
     above, below = number.get("exclusiveMinimum"), number.get("exclusiveMaximum")
     bounds = (
-        ("at least", number.get("minimum")),
-        ("more than", above),
-        ("at most", number.get("maximum")),
-        ("less than", below),
+        (_("at least {bound:g}"), number.get("minimum")),
+        (_("more than {bound:g}"), above),
+        (_("at most {bound:g}"), number.get("maximum")),
+        (_("less than {bound:g}"), below),
     )
     return DeclaredNumber(
         name=name,
@@ -429,8 +457,13 @@ def _declared(name: str, about: Mapping[str, Any]) -> DeclaredNumber | None:
         is_whole=number["type"] == "integer",
         is_pair=is_pair,
         unit=str(number.get("unit", "")),
-        limits=", ".join(
-            f"{word} {end:g}" for word, end in bounds if end is not None and not is_open(end)
+        limits=join(
+            [
+                Text(words.msgid, {"bound": end})
+                for words, end in bounds
+                if end is not None and not is_open(end)
+            ],
+            ", ",
         ),
     )
 
@@ -478,13 +511,19 @@ def _resolved(name: object, known: Mapping[str, Any]) -> str:
     if fitting:
         several = ", ".join(fitting[:20])
         raise NameNotFoundError(
-            f"options: expected the whole name of one number, got {name!r}: {several}"
+            _(
+                "options: expected the whole name of one number, got {name}: {several}",
+                name=repr(name),
+                several=several,
+            )
         )
     ends = {full.rpartition(".")[2]: full for full in known}
     hint = suggest(str(name), known)
     if "did you mean" not in hint and "did you mean" in suggest(str(name), ends):
         hint = suggest(str(name), ends)
-    raise NameNotFoundError(f"options: no number is called {name!r}; {hint}")
+    raise NameNotFoundError(
+        _("options: no number is called {name}; {hint}", name=repr(name), hint=hint)
+    )
 
 
 def _as_numbers(name: str, value: Any, *, is_pair: bool) -> Any:
@@ -497,8 +536,15 @@ def _as_numbers(name: str, value: Any, *, is_pair: bool) -> Any:
     parts = list(plain) if is_pair and isinstance(plain, list | tuple) else [plain]
     is_number = all(isinstance(each, Real) and not isinstance(each, bool) for each in parts)
     if len(parts) != 1 + is_pair or not is_number:
-        expected = "two numbers, as in [0, 1]" if is_pair else "a number"
-        raise ParameterError(f"options: {name}: expected {expected}, got {shown(value)}")
+        expected = _("two numbers, as in [0, 1]") if is_pair else _("a number")
+        raise ParameterError(
+            _(
+                "options: {name}: expected {expected}, got {got}",
+                name=name,
+                expected=expected,
+                got=shown(value),
+            )
+        )
     return parts if is_pair else parts[0]
 
 
@@ -508,7 +554,9 @@ def _explained(name: str) -> Iterator[None]:
     try:
         yield
     except ParameterError as error:
-        raise ParameterError(f"options: {name}: {error}") from None
+        raise ParameterError(
+            _("options: {name}: {error}", name=name, error=text_of(error))
+        ) from None
 
 
 def _changed_model(model: Any, values: Mapping[str, Any]) -> Any:

@@ -5,6 +5,8 @@ from typing import Protocol
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.block import Block
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 
 
 class HasId(Protocol):
@@ -23,7 +25,7 @@ def block_label(block: Block | None) -> str:
     return f"{type(block).__name__} {name!r}" if name else type(block).__name__
 
 
-def add_context(error: Exception, agent: HasId, block: Block | str | None, doing: str) -> None:
+def add_context(error: Exception, agent: HasId, block: Block | str | None, doing: Text) -> None:
     """Add agent and block to an error, once.
 
     Errors of this package get them in front of their message and keep their type; all others get
@@ -33,17 +35,18 @@ def add_context(error: Exception, agent: HasId, block: Block | str | None, doing
         error: changed in place.
         agent: the block's agent.
         block: the block, or the name of a handler.
-        doing: end of the note, such as "was acting".
+        doing: the note, with ``{block}`` and ``{agent}`` in it.
     """
     if getattr(error, "_has_context", False):
         return
     name = block if isinstance(block, str) else block_label(block)
-    who = f"agent {agent.id!r}"
+    who = _("agent {id!r}", id=agent.id)
     if isinstance(error, AI4UError) and error.args and isinstance(error.args[0], str):
         text, *others = error.args
-        text = text.removeprefix(f"{who}, ")
-        between = "" if text.startswith(name) else f"{name}: "
-        error.args = (f"{who}, {between}{text}", *others)
+        if text.startswith(f"{who}, "):  # it names the agent itself
+            text = text.removeprefix(f"{who}, ")
+        named = [text] if text.startswith(name) else [name, text]
+        error.args = (join([who, join(named, ": ")], ", "), *others)
     else:
-        error.add_note(f"while {name} of {who} {doing}")
+        error.add_note(Text(doing.msgid, {"block": name, "agent": who}))
     error._has_context = True  # type: ignore[attr-defined]  # of nested events only the inner one is named

@@ -5,6 +5,7 @@ from typing import Any, Generic, TypeVar, TypeVarTuple
 
 from ai4u_edu.agent.error_context import HasId, add_context
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 A = TypeVar("A", bound=HasId)
@@ -57,8 +58,11 @@ class Event(Generic[A, *Details]):
         """
         if not callable(handler):
             raise SetupError(
-                f"connect: expected a function that gets the agent, got {handler!r}; give a "
-                "function that is called later, as in connect(lambda agent: print(agent.id))"
+                _(
+                    "connect: expected a function that gets the agent, got {handler}; give a "
+                    "function that is called later, as in connect(lambda agent: print(agent.id))",
+                    handler=repr(handler),
+                )
             )
         self.handlers.append(handler)
         return handler
@@ -76,7 +80,8 @@ class Event(Generic[A, *Details]):
         except Exception as error:
             title = getattr(handler, "__qualname__", type(handler).__name__)
             title = title.rpartition("<locals>.")[2]
-            add_context(error, agent, f"handler {title} of {self.name}", "was called")
+            handler_of = _("handler {name} of {event}", name=title, event=self.name)
+            add_context(error, agent, handler_of, _("while {block} of {agent} was called"))
             raise
 
     def __repr__(self) -> str:

@@ -7,9 +7,10 @@ from ai4u_edu.agent.agent import BasicAgent
 from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.blocks import Actuator, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.sensors.sensor_state import SensorState, read_again
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import World
 
-BLOCKS_CHANGED_REASON = (
+BLOCKS_CHANGED_REASON = _(
     "the agent's blocks were changed; connect again to be told what it senses now"
 )
 """Reason given to a connected script whose agent was changed."""

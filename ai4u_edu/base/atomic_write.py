@@ -18,8 +18,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.base.file_lock import FileLock, LockedError
+from ai4u_edu.locale import gettext as _
 
 PREFIX = ".ai4u-partial-"
 LEFTOVER = re.compile(re.escape(PREFIX) + r"[0-9a-f]{16}(\.\w{1,10})?")
@@ -110,11 +111,16 @@ def make_folder(folder: Path, what: str, *, is_private: bool = False) -> None:
         if is_private and folder.resolve() not in (Path.home().resolve(), Path.cwd()):
             make_private(folder)
         if not os.access(folder, os.W_OK | os.X_OK):
-            raise PermissionError(errno.EACCES, "it may not be written to")
+            raise PermissionError(errno.EACCES, _("it may not be written to"))
     except (OSError, ValueError) as error:  # ValueError: a null character
-        why = reason(error) if isinstance(error, OSError) else str(error)
+        why = reason(error) if isinstance(error, OSError) else text_of(error)
         raise SetupError(
-            f"{folder}: expected a folder for {what}: {why}; choose another one"
+            _(
+                "{folder}: expected a folder for {what}: {why}; choose another one",
+                folder=str(folder),
+                what=what,
+                why=why,
+            )
         ) from None
     remove_leftovers(folder)
 
@@ -227,5 +233,5 @@ def _flush_folder(folder: Path) -> None:
 def reason(error: OSError) -> str:
     """Return why a file can't be written, in the words of the operating system and of ours."""
     if error.errno == errno.ENOSPC:
-        return "the disk is full"
+        return _("the disk is full")
     return error.strerror or str(error)

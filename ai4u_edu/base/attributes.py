@@ -6,6 +6,7 @@ from types import CodeType
 from typing import TYPE_CHECKING, Any
 
 from ai4u_edu.base.errors import UnknownAttributeError, suggest
+from ai4u_edu.locale import gettext as _
 
 
 class NoStrayAttributes:
@@ -32,13 +33,19 @@ class NoStrayAttributes:
         def __setattr__(self, name: str, value: Any) -> None:
             is_new = name not in self.__dict__ and not name.startswith("_")
             if is_new and self._is_complete and not hasattr(type(self), name):
-                raise UnknownAttributeError(f"{type(self).__name__} {self._about(name)}")
+                raise UnknownAttributeError(self._about(name))
             object.__setattr__(self, name, value)
 
     def _about(self, name: str) -> str:
-        """Return a sentence about an unknown attribute, which a subclass may know better."""
+        """Return a sentence on an unknown attribute; a subclass may know it better."""
         public = [each for each in (*vars(self), *dir(type(self))) if not each.startswith("_")]
-        return f"has no attribute {name!r}; {suggest(name, public)}"
+        owner = type(self).__name__
+        return _(
+            "{owner} has no attribute {name!r}; {hint}",
+            owner=owner,
+            name=name,
+            hint=suggest(name, public),
+        )
 
 
 def refuse_stray(thing: object, where: str, parameters: Iterable[str]) -> None:
@@ -60,7 +67,12 @@ def refuse_stray(thing: object, where: str, parameters: Iterable[str]) -> None:
     for name in vars(thing):
         if name not in known and not name.startswith("_"):
             raise UnknownAttributeError(
-                f"{where}has no attribute {name!r}; {suggest(name, parameters)}"
+                _(
+                    "{where}: has no attribute {name!r}; {hint}",
+                    where=where,
+                    name=name,
+                    hint=suggest(name, parameters),
+                )
             )
 
 

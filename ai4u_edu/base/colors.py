@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import AfterValidator
 
 from ai4u_edu.base.errors import suggest
+from ai4u_edu.locale import gettext as _
 
 PALETTE = {
     "black": "#000000",
@@ -51,7 +52,13 @@ def _known(colour: str) -> str:
     if colour in PALETTE or re.fullmatch(r"#[0-9a-fA-F]{6}", colour):
         return colour
     hint = suggest(colour, PALETTE)
-    raise ValueError(f"expected '#rrggbb' or a colour's name, got {colour!r}; {hint}")
+    raise ValueError(
+        _(
+            "expected '#rrggbb' or a colour's name, got {colour}; {hint}",
+            colour=repr(colour),
+            hint=hint,
+        )
+    )
 
 
 Colour = Annotated[str, AfterValidator(_known)]

@@ -31,6 +31,7 @@ from difflib import get_close_matches
 from typing import Any
 
 from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 
 MAX_SHOWN_CHARS = 60
 """Maximum length of a value in a message."""
@@ -123,14 +124,16 @@ def suggest(name: str, known: Iterable[str]) -> str:
     """
     names = sorted(known)
     if not names:
-        return "there are none"
+        return _("there are none")
     if len(name) <= MAX_NAME_CHARS:
         near = get_close_matches(name, names[:MAX_NAMES_COMPARED], n=1)
         if near:
-            return f"did you mean {near[0]!r}?"
+            return _("did you mean {name!r}?", name=near[0])
     first = ", ".join(shown(each, MAX_NAME_CHARS) for each in names[:MAX_NAMES_SHOWN])
     more = len(names) - MAX_NAMES_SHOWN
-    return f"known are {first}" + (f" and {more} more" if more > 0 else "")
+    if more > 0:
+        return _("known are {names} and {more} more", names=first, more=more)
+    return _("known are {names}", names=first)
 
 
 def shown(value: object, max_chars: int = MAX_SHOWN_CHARS) -> str:
@@ -151,7 +154,7 @@ def shown(value: object, max_chars: int = MAX_SHOWN_CHARS) -> str:
     try:
         text = repr(_beginning(value, [max_chars + 1]))
     except ValueError:  # an int with more digits than Python converts
-        text = f"a very large {type(value).__name__}"
+        text = _("a very large {type}", type=type(value).__name__)
     return shorten(text, max_chars)
 
 

@@ -5,6 +5,8 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
+from ai4u_edu.locale import gettext as _
+
 NO_LOCKS = {
     getattr(errno, name)
     for name in ("ENOSYS", "ENOLCK", "ENOTSUP", "EOPNOTSUPP")
@@ -44,7 +46,7 @@ class FileLock:
         try:
             self._lock.acquire(blocking=False)
         except filelock.Timeout:
-            raise LockedError(errno.EAGAIN, "in use by another process", str(path)) from None
+            raise LockedError(errno.EAGAIN, _("in use by another process"), str(path)) from None
         except OSError as error:
             if error.errno not in NO_LOCKS:
                 raise

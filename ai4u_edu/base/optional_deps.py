@@ -7,6 +7,8 @@ import sys
 from importlib.util import find_spec
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import listed, ngettext
 
 CPU_TORCH = "pip install torch --index-url https://download.pytorch.org/whl/cpu"
 """Command that installs torch without its files for graphics cards."""
@@ -29,15 +31,24 @@ def need(extra: str, *modules: str) -> None:
     """
     missing = [module for module in modules if find_spec(module) is None]
     if missing:
-        raise SetupError(
-            f"this needs {' and '.join(missing)}, which {'is' if len(missing) == 1 else 'are'} not "
-            f'installed; install with: pip install "ai4u-edu[{extra}]" '
-            f'(in a checkout: pip install -e ".[{extra}]"){_torch_advice(missing)}'
+        install = ngettext(
+            "this needs {names}, which is not installed; install with: pip install "
+            '"ai4u-edu[{extra}]" (in a checkout: pip install -e ".[{extra}]")',
+            "this needs {names}, which are not installed; install with: pip install "
+            '"ai4u-edu[{extra}]" (in a checkout: pip install -e ".[{extra}]")',
+            len(missing),
+            names=listed(missing),
+            extra=extra,
         )
+        raise SetupError(_with_torch_advice(install, missing))
 
 
-def _torch_advice(missing: list[str]) -> str:
-    """Return how to install a small torch first, where the usual one is large."""
+def _with_torch_advice(install: str, missing: list[str]) -> str:
+    """Add how to install a small torch first, where the usual one is large."""
     if "torch" not in missing or sys.platform != "linux":
-        return ""
-    return f". Without a graphics card for it, first: {CPU_TORCH} (0.7 GB in place of 5.9 GB)"
+        return install
+    return _(
+        "{install}. Without a graphics card for it, first: {command} (0.7 GB in place of 5.9 GB)",
+        install=install,
+        command=CPU_TORCH,
+    )

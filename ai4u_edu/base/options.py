@@ -9,7 +9,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import NamedTuple, Protocol
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
+from ai4u_edu.locale import gettext as _
 
 PAGE_OPTIONS = ("ai4u_edu.explain.page", "ai4u_edu.teach", "ai4u_edu.missions")
 """Add to the page of a world: each has a function ``page_option``; see
@@ -78,6 +79,11 @@ def load_option(module: str, purpose: str) -> ModuleType:
         return import_module(module)
     except ImportError as error:
         raise MissingOptionError(
-            f"{purpose} needs {module}, which can't be imported here: {error}; install it with: "
-            "pip install ai4u-edu"
+            _(
+                "{purpose} needs {module}, which can't be imported here: {error}; install it "
+                "with: pip install ai4u-edu",
+                purpose=purpose,
+                module=module,
+                error=text_of(error),
+            )
         ) from error

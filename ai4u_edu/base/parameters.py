@@ -12,7 +12,9 @@ from typing import Annotated, Any, NamedTuple, get_args
 from pydantic import AfterValidator, BaseModel, Field, StringConstraints
 from pydantic_core import ErrorDetails
 
-from ai4u_edu.base.errors import shown, suggest
+from ai4u_edu.base.errors import shown, suggest, text_of
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 
 
 def quantity(
@@ -42,7 +44,9 @@ def not_below(least: float) -> AfterValidator:
 
     def check(number: float) -> float:
         if number < least:
-            raise ValueError(f"expected at least {least:g}, got {number!r}")
+            raise ValueError(
+                _("expected at least {least:g}, got {number}", least=least, number=repr(number))
+            )
         return number
 
     return AfterValidator(check)
@@ -86,10 +90,15 @@ class ParameterProblem(NamedTuple):
 
     def __str__(self) -> str:
         """Return ``path: text``, as in a message."""
-        return f"{format_path(self.path)}: {self.text}" if self.path else self.text
+        return str(self.message)
+
+    @property
+    def message(self) -> str:
+        """``path: text``, as a text that can be translated."""
+        return join([format_path(self.path), self.text], ": ") if self.path else self.text
 
 
-_UNEXPLAINED = ParameterProblem((), "is wrong")
+_UNEXPLAINED = ParameterProblem((), _("is wrong"))
 
 
 def format_path(path: Sequence[str | int]) -> str:
@@ -131,10 +140,10 @@ def format_problems(problems: Sequence[ParameterProblem]) -> str:
     >>> format_problems([ParameterProblem((), "is wrong")] * 22)[-28:]
     'wrong; and 2 more like these'
     """
-    told = [*map(str, problems[:MAX_LISTED])]
+    told = [problem.message for problem in problems[:MAX_LISTED]]
     if len(problems) > MAX_LISTED:
-        told.append(f"and {len(problems) - MAX_LISTED} more like these")
-    return "; ".join(told)
+        told.append(_("and {count} more like these", count=len(problems) - MAX_LISTED))
+    return join(told, "; ")
 
 
 def _walk(
@@ -174,61 +183,72 @@ def _models(annotation: Any) -> list[type[BaseModel]]:
 
 
 EXPECTED = {
-    "int_type": "a whole number",
-    "int_parsing": "a whole number",
-    "int_from_float": "a whole number",
-    "float_type": "a number",
-    "float_parsing": "a number",
-    "finite_number": "a finite number",
-    "string_type": "text",
-    "bool_type": "true or false",
-    "bool_parsing": "true or false",
-    "list_type": "a list",
-    "tuple_type": "a list",
-    "dict_type": "a mapping",
-    "mapping_type": "a mapping",
-    "model_type": "a mapping",
-    "model_attributes_type": "a mapping",
-    "literal_error": "{expected}",
-    "too_short": "at least {min_length} entries",
-    "too_long": "at most {max_length} entries",
-    "string_too_short": "at least {min_length} characters",
-    "string_too_long": "at most {max_length} characters",
-    "string_pattern_mismatch": "text that matches {pattern}",
+    "int_type": _("expected a whole number, got {got}"),
+    "int_parsing": _("expected a whole number, got {got}"),
+    "int_from_float": _("expected a whole number, got {got}"),
+    "float_type": _("expected a number, got {got}"),
+    "float_parsing": _("expected a number, got {got}"),
+    "finite_number": _("expected a finite number, got {got}"),
+    "string_type": _("expected text, got {got}"),
+    "bool_type": _("expected true or false, got {got}"),
+    "bool_parsing": _("expected true or false, got {got}"),
+    "list_type": _("expected a list, got {got}"),
+    "tuple_type": _("expected a list, got {got}"),
+    "dict_type": _("expected a mapping, got {got}"),
+    "mapping_type": _("expected a mapping, got {got}"),
+    "model_type": _("expected a mapping, got {got}"),
+    "model_attributes_type": _("expected a mapping, got {got}"),
+    "literal_error": _("expected {expected}, got {got}"),
+    "too_short": _("expected at least {min_length} entries, got {got}"),
+    "too_long": _("expected at most {max_length} entries, got {got}"),
+    "string_too_short": _("expected at least {min_length} characters, got {got}"),
+    "string_too_long": _("expected at most {max_length} characters, got {got}"),
+    "string_pattern_mismatch": _("expected text that matches {pattern}, got {got}"),
+    "greater_than": _("expected more than {gt:g}, got {got}"),
+    "greater_than_equal": _("expected at least {ge:g}, got {got}"),
+    "less_than": _("expected less than {lt:g}, got {got}"),
+    "less_than_equal": _("expected at most {le:g}, got {got}"),
 }
-"""Expected values by pydantic's type of error."""
-
-BOUNDS = {
-    "greater_than": ("more than", "gt"),
-    "greater_than_equal": ("at least", "ge"),
-    "less_than": ("less than", "lt"),
-    "less_than_equal": ("at most", "le"),
-}
+"""Sentences by pydantic's type of error, with values of its context in braces."""
 
 
 def _sentence(error: ErrorDetails, known: Sequence[str], *, hints: bool) -> str:
     kind, got = error["type"], error.get("input")
     context: Mapping[str, Any] = error.get("ctx", {})
     if kind in {"missing", "missing_argument", "missing_keyword_only_argument"}:
-        return "is missing and has no default"
+        return _("is missing and has no default")
     if kind == "unexpected_positional_argument":
-        example = next(iter(known), "size")
-        return f"parameters are given by name, as in {example}=...; got {shown(got)}"
+        return _(
+            "parameters are given by name, as in {example}=...; got {got}",
+            example=next(iter(known), "size"),
+            got=shown(got),
+        )
     if kind in {"extra_forbidden", "unexpected_keyword_argument"}:
-        return "unknown parameter" + ("; " + suggest(str(error["loc"][-1]), known) if hints else "")
+        unknown = _("unknown parameter")
+        return join([unknown, suggest(str(error["loc"][-1]), known)], "; ") if hints else unknown
     if kind == "union_tag_invalid":
         tags = [tag.strip().strip("'") for tag in str(context["expected_tags"]).split(",")]
-        hint = f"; {suggest(str(context['tag']), tags)}" if hints else ""
-        return f"unknown type {shown(context['tag'])}{hint}"
+        unknown = _("unknown type {type}", type=shown(context["tag"]))
+        return join([unknown, suggest(str(context["tag"]), tags)], "; ") if hints else unknown
     if kind == "union_tag_not_found":
-        return "needs a 'type'"
+        return _("needs a 'type'")
     if kind == "value_error":
+        cause = context.get("error")
+        if isinstance(cause, Exception):
+            return text_of(cause)
         return error["msg"].removeprefix("Value error, ")
     what = shown(got)  # only here: it may be the whole input
-    if kind in BOUNDS:
-        words, key = BOUNDS[kind]
-        return f"expected {words} {context[key]:g}, got {what}"
     if kind in EXPECTED:
-        return f"expected {EXPECTED[kind].format(**context)}, got {what}"
+        pattern = EXPECTED[kind].msgid
+        values = {name: value for name, value in context.items() if f"{{{name}" in pattern}
+        if kind == "literal_error":
+            values["expected"] = _choices(str(context["expected"]))
+        return Text(pattern, {**values, "got": what})
     message = error["msg"].replace("Input should be ", "expected ").replace("valid ", "")
-    return f"{message}, got {what}"
+    return _("{message}, got {got}", message=message, got=what)
+
+
+def _choices(expected: str) -> str:
+    """Return pydantic's list of values, such as "'a', 'b' or 'c'", as a text."""
+    first, _or, last = expected.rpartition(" or ")
+    return _("{choices} or {last}", choices=first, last=last) if first else expected

@@ -8,6 +8,7 @@ from zlib import crc32
 import numpy as np
 
 from ai4u_edu.base.errors import SeedError, shown
+from ai4u_edu.locale import gettext as _
 
 MAX_SEED = 2**63 - 1
 """Largest seed: recordings and messages keep seeds as signed 64-bit integers."""
@@ -34,7 +35,13 @@ got 100000000000000000000
     except TypeError:
         found = -1
     if not 0 <= found <= MAX_SEED:
-        raise SeedError(f"seed: expected a whole number from 0 to {MAX_SEED}, got {shown(seed)}")
+        raise SeedError(
+            _(
+                "seed: expected a whole number from 0 to {max_seed}, got {got}",
+                max_seed=MAX_SEED,
+                got=shown(seed),
+            )
+        )
     return found
 
 
@@ -50,7 +57,13 @@ def seeds_from(first: Any, count: int) -> range:
     first = checked_seed(first)
     if first + count - 1 > MAX_SEED:
         raise SeedError(
-            f"seed: expected room for {count} seeds up to {MAX_SEED}, got {first} as the first one"
+            _(
+                "seed: expected room for {count} seeds up to {max_seed}, got {first} as the first "
+                "one",
+                count=count,
+                max_seed=MAX_SEED,
+                first=first,
+            )
         )
     return range(first, first + count)
 

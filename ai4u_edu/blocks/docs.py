@@ -13,6 +13,7 @@ from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.locale import gettext as _
 
 KINDS: dict[str, type[Block]] = {
     "sensors": Sensor,
@@ -97,7 +98,7 @@ def lesson_page(name: str) -> str:
     known = {cls.__name__: cls for kind in built_in_blocks().values() for cls in kind}
     if name not in known:
         hint = _hint_from_ai4u(name) or suggest(name, known)
-        raise NameNotFoundError(f"no block is called {name!r}; {hint}")
+        raise NameNotFoundError(_("no block is called {name!r}; {hint}", name=name, hint=hint))
     cls = known[name]
     described = (inspect.getdoc(cls) or "").split("\n\n>>>")[0]
     rows = [("parameter", "default", "range", "")]

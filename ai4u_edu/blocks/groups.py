@@ -5,6 +5,8 @@ from typing import Any
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks.block import Block
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.world import WorldView
 
 _PARAMETERS = ("group", "target_group", "group_code", "channels", "blocked_by")
@@ -22,7 +24,7 @@ def check_groups(block: Block, parameter: str, view: WorldView) -> None:
     """
     missing = _missing(block, parameter, view)
     if missing and len(missing) == len(_names(getattr(block, parameter))):
-        raise NameNotFoundError("; ".join(missing))
+        raise NameNotFoundError(join(missing, "; "))
 
 
 def missing_groups(block: Block, view: WorldView) -> list[str]:
@@ -51,7 +53,12 @@ def _missing(block: Block, parameter: str, view: WorldView) -> list[str]:
     by_default = _names(block.parameters()[parameter].get_default(call_default_factory=True))
     known = _known_groups(block, view)
     return [
-        f"{parameter}: nothing that it could find carries the tag {name!r}; {suggest(name, known)}"
+        _(
+            "{parameter}: nothing that it could find carries the tag {name!r}; {hint}",
+            parameter=parameter,
+            name=name,
+            hint=suggest(name, known),
+        )
         for name in _names(getattr(block, parameter))
         if name not in known and name not in by_default
     ]

@@ -7,6 +7,7 @@ from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 MOVING_SPEED_M_S = 0.05
@@ -59,13 +60,23 @@ class HomeostaticVariable(Block):
         ends = self.range_min, self.comfort_min, self.comfort_max, self.range_max
         if self.range_min >= self.range_max or sorted(ends) != list(ends):
             raise BlockError(
-                f"{self._title()}: expected range_min <= comfort_min <= comfort_max <= range_max "
-                f"and a range that is not empty, got {' .. '.join(f'{end:g}' for end in ends)}"
+                _(
+                    "{title}: expected range_min <= comfort_min <= comfort_max <= range_max and a "
+                    "range that is not empty, got {names}",
+                    title=self._title(),
+                    names=" .. ".join(f"{end:g}" for end in ends),
+                )
             )
         if not self.range_min <= self.value <= self.range_max:
             raise BlockError(
-                f"{self._title()}: expected a value within its range "
-                f"{self.range_min:g}..{self.range_max:g}, got {self.value:g}"
+                _(
+                    "{title}: expected a value within its range {range_min:g}..{range_max:g}, got "
+                    "{value:g}",
+                    title=self._title(),
+                    range_min=self.range_min,
+                    range_max=self.range_max,
+                    value=self.value,
+                )
             )
         self.level = self.value
         """The present level."""
@@ -81,7 +92,13 @@ class HomeostaticVariable(Block):
             ReadingError: the amount is not a number (NaN).
         """
         if amount != amount:  # max and min would turn NaN into a full level
-            raise ReadingError(f"{self._title()}: expected an amount, got {amount!r}")
+            raise ReadingError(
+                _(
+                    "{title}: expected an amount, got {amount}",
+                    title=self._title(),
+                    amount=repr(amount),
+                )
+            )
         self.level = max(self.range_min, min(self.range_max, self.level + amount))
 
     def drift(self, body: BodyView, seconds: float) -> None:
@@ -119,8 +136,14 @@ class HomeostaticVariable(Block):
         low, high = self.range_min + half, self.range_max - half
         if not low <= value <= high:
             raise BlockError(
-                f"{self._title()}: expected a centroid from {low:g} to {high:g}, so that the "
-                f"comfort zone stays within the range, got {value!r}"
+                _(
+                    "{title}: expected a centroid from {low:g} to {high:g}, so that the comfort "
+                    "zone stays within the range, got {value}",
+                    title=self._title(),
+                    low=low,
+                    high=high,
+                    value=repr(value),
+                )
             )
         self.comfort_min = max(self.range_min, value - half)
         self.comfort_max = min(self.range_max, value + half)

@@ -5,8 +5,10 @@ import sys
 import traceback
 from pathlib import Path
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.blocks.block import Block, is_built_in
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 PREFIX = "own_blocks_"
 """Prefix of the names of modules that are made from such files."""
@@ -30,25 +32,32 @@ def load_blocks(path: Path) -> list[type[Block]]:
     name = f"{PREFIX}{path.stem}"
     spec = importlib.util.spec_from_file_location(name, path)
     if path.suffix != ".py" or not path.is_file() or spec is None or spec.loader is None:
-        raise SetupError(f"{path}: expected a Python file (.py) with blocks of your own")
+        raise SetupError(
+            _("{path}: expected a Python file (.py) with blocks of your own", path=str(path))
+        )
     before = dict(Block.types)
     module = sys.modules[name] = importlib.util.module_from_spec(spec)
     beside = str(path.parent.resolve())
     if beside not in sys.path:
         sys.path.append(beside)
-    problem = ""
+    problem: str = ""
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:  # a user's code may raise anything
-        problem = f"{_place(path, error)}: {type(error).__name__}: {_text(error)}"
+        problem = join([_place(path, error), type(error).__name__, _text(error)], ": ")
     found = {name: cls for name, cls in Block.types.items() if before.get(name) is not cls}
     taken = [name for name in found if name in before and is_built_in(before[name])]
     if taken:
-        problem = f"{path}: {taken[0]} is the name of a built-in block; expected another name"
+        problem = _(
+            "{path}: {name} is the name of a built-in block; expected another name",
+            path=str(path),
+            name=taken[0],
+        )
     elif not problem and not found:
-        problem = (
-            f"{path}: defines no block; expected a class made from Sensor, Actuator, RewardFunc, "
-            "Brain or Controller"
+        problem = _(
+            "{path}: defines no block; expected a class made from Sensor, Actuator, RewardFunc, "
+            "Brain or Controller",
+            path=str(path),
         )
     if problem:
         Block.types.clear()
@@ -71,14 +80,14 @@ def own_files() -> list[Path]:
 def _place(path: Path, error: BaseException) -> str:
     """Return the file, and the line in it that raised the error."""
     if isinstance(error, SyntaxError) and error.filename == str(path):
-        return f"{path}, line {error.lineno}"
+        return _("{path}, line {line}", path=str(path), line=error.lineno or 0)
     lines = [
         frame.lineno
         for frame in traceback.extract_tb(error.__traceback__)
         if frame.filename == str(path)
     ]
-    return f"{path}, line {lines[-1]}" if lines else str(path)
+    return _("{path}, line {line}", path=str(path), line=lines[-1] or 0) if lines else str(path)
 
 
 def _text(error: BaseException) -> str:
-    return error.msg if isinstance(error, SyntaxError) else str(error)
+    return error.msg if isinstance(error, SyntaxError) else text_of(error)

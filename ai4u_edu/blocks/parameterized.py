@@ -19,12 +19,17 @@ from pydantic_core import ArgsKwargs, core_schema
 from ai4u_edu.base.errors import ParameterError, shown
 from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.base.syntax import parsed_class
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 
 _CONFIG = ConfigDict(
     extra="forbid",
     allow_inf_nan=False,
     arbitrary_types_allowed=True,
 )
+
+
+_A, _AN = _("expected a {name}, got {got}"), _("expected an {name}, got {got}")
 
 
 @dataclass_transform(kw_only_default=True, eq_default=False, field_specifiers=(Field,))
@@ -70,16 +75,19 @@ class Parameterized:
     def _refuse_unmade(cls, value: Any) -> Any:
         if isinstance(value, cls | ArgsKwargs):  # pydantic passes the constructor's arguments too
             return value
-        name = cls.__name__
-        got, hint = shown(value), ""
+        name, got = cls.__name__, shown(value)
+        expected = _AN if name[0] in "AEIOU" else _A
         if isinstance(value, type):
-            got = f"the class {value.__name__}"
-            hint = f"; make one, as in {value.__name__}(...)" if issubclass(value, cls) else ""
+            got = _("the class {name}", name=value.__name__)
+            if issubclass(value, cls):
+                got = _("the class {name}; make one, as in {name}(...)", name=value.__name__)
         elif isinstance(value, Mapping):
-            hint = "; make it here, mappings with a 'type' stand in scene files only"
-        article = "an" if name[0] in "AEIOU" else "a"
+            got = _(
+                "{mapping}; make it here, mappings with a 'type' stand in scene files only",
+                mapping=got,
+            )
         # pydantic collects a ValueError, and would let a TypeError through
-        problem = ValueError(f"expected {article} {name}, got {got}{hint}")
+        problem = ValueError(Text(expected.msgid, {"name": name, "got": got}))
         raise problem
 
     @classmethod
@@ -131,9 +139,14 @@ def _run_once(own: Callable[..., None], name: str) -> Callable[[Any], None]:
     if extra:
         fields = ", ".join(f"`{each.name}: float = ...`" for each in extra)
         raise ParameterError(
-            f"{name}: expected no parameters of __init__ besides self, got "
-            f"{', '.join(each.name for each in extra)}; declare each under the class line, as in "
-            f"{fields}, and read it as self.{extra[0].name}"
+            _(
+                "{name}: expected no parameters of __init__ besides self, got {names}; declare "
+                "each under the class line, as in {fields}, and read it as self.{first}",
+                name=name,
+                names=", ".join(each.name for each in extra),
+                fields=fields,
+                first=extra[0].name,
+            )
         )
     running: set[int] = set()
 
@@ -158,7 +171,7 @@ def _explained(construct: Callable[..., None], cls: type[Parameterized]) -> Call
             inner(self, *args, **values)
         except ValidationError as error:
             problems = format_problems(explain(error.errors(), cls.parameters()))
-            told = ParameterError(f"{type(self).__name__}: {problems}")
+            told = ParameterError(join([type(self).__name__, problems], ": "))
             told.details = error
             raise told from None
 

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.locale import gettext as _
 
 DTYPES: dict[str, npt.DTypeLike] = {
     "sfloat": np.float32,
@@ -95,7 +96,9 @@ class Percept(Mapping[str, Any]):
             return reading if slot.shape else reading.item()
         if key in self.layout.texts:
             return self.texts[self.layout.texts.index(key)]
-        raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, self)}")
+        raise NameNotFoundError(
+            _("no reading is called {key!r}; {hint}", key=key, hint=suggest(key, self))
+        )
 
     def __iter__(self) -> Iterator[str]:
         yield from self.layout.slots

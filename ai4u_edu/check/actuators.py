@@ -15,6 +15,7 @@ from ai4u_edu.check.block_check import (
 )
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Pose, Rollout, RolloutStep, Script, fresh, title_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 
@@ -60,12 +61,12 @@ def check_actuator(
         make,
         options,
         of=_effects,
-        words="places of all bodies and traces",
+        words=_("places of all bodies and traces"),
     )
-    run_static_checks(report, actuator, "what it does")
+    run_static_checks(report, actuator, _("what it does"))
     if checks.run():
         warn_of_groups(report, [("", actuator)], checks.view)
-        report.add("finite", _not_finite([poses for poses, _ in checks.values()]))
+        report.add(_("finite"), _not_finite([poses for poses, _traces in checks.values()]))
         _refuses(report, copies[0])
         without = checks.drive(Rollout(the_scene, without=actuator, script=script))
         _has_effect(report, checks.values(), [_effects(record) for record in without])
@@ -80,9 +81,12 @@ def _not_finite(values: list[dict[str, Pose]]) -> str:
     for number, poses in enumerate(values):
         for name, pose in poses.items():
             if not math.isfinite(sum(pose)):
-                return (
-                    f"expected every body at a finite place, got body {name!r} at {pose} after "
-                    f"decision {number}; does it divide by zero?"
+                return _(
+                    "expected every body at a finite place, got body {name!r} at {pose} after "
+                    "decision {number}; does it divide by zero?",
+                    name=name,
+                    pose=str(pose),
+                    number=number,
                 )
     return ""
 
@@ -90,32 +94,38 @@ def _not_finite(values: list[dict[str, Pose]]) -> str:
 def _refuses(report: Report, actuator: Actuator) -> None:
     size = len(actuator.limits()[0])
     if not size:
-        report.add("refuses", "it takes no numbers", outcome=Outcome.NOT_APPLICABLE)
+        report.add(_("refuses"), _("it takes no numbers"), outcome=Outcome.NOT_APPLICABLE)
         return
     wrong: list[Any] = [[math.nan] * size, [0.0] * (size + 1), "go"]
     for values in wrong:
         try:
             actuator.accept(values)
-            problem = "no error"
+            problem: str = _("no error")
         except ActionError:
             continue
         except Exception as error:  # whatever it is, the report says it
             problem = format_error(error)
         report.add(
-            "refuses",
-            f"expected an ActionError for the action {values!r}, got {problem}; "
-            "let Actuator.accept look at it first",
+            _("refuses"),
+            _(
+                "expected an ActionError for the action {values}, got {problem}; let "
+                "Actuator.accept look at it first",
+                values=repr(values),
+                problem=problem,
+            ),
         )
         return
-    report.add("refuses")
+    report.add(_("refuses"))
 
 
 def _has_effect(report: Report, values: list[Any], without: list[Any]) -> None:
     idle = values == without
     report.add(
-        "has an effect",
-        "expected bodies at other places than without it, or ink, got all the same; if it needs "
-        "something that is not here, check it in another scene, by scene=..."
+        _("has an effect"),
+        _(
+            "expected bodies at other places than without it, or ink, got all the same; if it "
+            "needs something that is not here, check it in another scene, by scene=..."
+        )
         if idle
         else "",
         outcome=Outcome.WARNING if idle else None,

@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, Sensor
 from ai4u_edu.blocks.groups import missing_groups, names_groups
 from ai4u_edu.blocks.rewards.eval_value import EvalValue
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Rollout, RolloutStep, Script, standard_scene
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, listed
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import from_plain, is_serializable, to_plain
 from ai4u_edu.world import WorldView
@@ -27,7 +29,7 @@ MAX_VALUE_CHARS = 120
 
 _KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
 
-_HINT = "are all parameters declared as annotated fields, and left as they were given?"
+_HINT = _("are all parameters declared as annotated fields, and left as they were given?")
 
 
 @dataclass
@@ -83,27 +85,36 @@ class BlockCheck:
             rollout = self._make()
         except Exception as error:  # whatever it is, the report says it
             self.report.add(
-                "setup", f"expected a setup without an error, got {format_error(error)}"
+                _("setup"),
+                _(
+                    "expected a setup without an error, got {error}",
+                    error=format_error(error),
+                ),
             )
             return False
-        self.report.add("setup")
+        self.report.add(_("setup"))
         self.view = rollout.agent.view  # the world that was built for the first run
         try:
             self.records = self.drive(rollout)
         except Exception as error:  # whatever it is, the report says it
-            text = (
-                f"expected {self._decisions} decisions without an error, got {format_error(error)}"
+            text = _(
+                "expected {decisions} decisions without an error, got {error}",
+                decisions=self._decisions,
+                error=format_error(error),
             )
-            self.report.add("runs", text)
+            self.report.add(_("runs"), text)
             return False
-        self.report.add("runs")
+        self.report.add(_("runs"))
         drawn = [
             name for name, state in _global_generator_states().items() if state != before[name]
         ]
         self.report.add(
-            "global chance",
-            f"expected no draw from a global generator, got one from {' and '.join(drawn)}; "
-            "take view.random(name), which grows from the world's seed"
+            _("global chance"),
+            _(
+                "expected no draw from a global generator, got one from {names}; take "
+                "view.random(name), which grows from the world's seed",
+                names=listed(drawn),
+            )
             if drawn
             else "",
         )
@@ -128,11 +139,17 @@ class BlockCheck:
         # right after a reset there is no reward and no answer yet
         values = [value for value in self.values() if value is not None]
         same = all(frozen(value) == frozen(values[0]) for value in values)
-        got = f"{short(values[0])} all {len(values)} times" if values else "none"
+        got: str = _("none")
+        if values:
+            got = _("{value} all {count} times", value=short(values[0]), count=len(values))
         self.report.add(
-            "changes",
-            f"expected {self._words} that change while the agent drives about, got {got}; "
-            "if there is nothing here to make them change, check it in another scene, by scene=..."
+            _("changes"),
+            _(
+                "expected {words} that change while the agent drives about, got {got}; if there "
+                "is nothing here to make them change, check it in another scene, by scene=...",
+                words=self._words,
+                got=got,
+            )
             if same
             else "",
             outcome=Outcome.WARNING if same and warning else None,
@@ -140,40 +157,49 @@ class BlockCheck:
 
     def only_looks(self, without: Rollout) -> None:
         """Check that the first episode runs as it does without the block."""
-        problem = ""
+        problem: str = ""
         for number, (one, other) in enumerate(zip(self.records, self.drive(without), strict=False)):
             moved = [name for name in one.poses if one.poses[name] != other.poses[name]]
             if moved:
-                problem = (
-                    "expected the world to go on as it does without it, got body "
-                    f"{moved[0]!r} at another place after decision {number}; what only looks "
-                    "must not move anything"
+                problem = _(
+                    "expected the world to go on as it does without it, got body {name!r} at "
+                    "another place after decision {number}; what only looks must not move anything",
+                    name=moved[0],
+                    number=number,
                 )
             if moved or one.done or other.done:
                 break  # a reward may end the episode; after that the runs can't be compared
-        self.report.add("only looks", problem)
+        self.report.add(_("only looks"), problem)
 
     def _same_twice(self) -> None:
         problem = self._difference(lambda: self.drive(self._make()))
         self.report.add(
-            "same twice",
-            f"expected the same {self._words} from the same seed, got {problem}; "
-            "take chance from view.random(name), and go through no set"
+            _("same twice"),
+            _(
+                "expected the same {words} from the same seed, got {problem}; take chance from "
+                "view.random(name), and go through no set",
+                words=self._words,
+                problem=problem,
+            )
             if problem
             else "",
         )
 
     def _check_reset(self, rollout: Rollout, why_not: str) -> None:
         if self.report.findings[-1].outcome is Outcome.FAILED:
-            why_not = "it differs even without a reset"
+            why_not = _("it differs even without a reset")
         if why_not:
-            self.report.add("forgets", why_not, outcome=Outcome.NOT_APPLICABLE)
+            self.report.add(_("forgets"), why_not, outcome=Outcome.NOT_APPLICABLE)
             return
         problem = self._difference(lambda: self.drive(rollout))
         self.report.add(
-            "forgets",
-            f"expected the same {self._words} again after a reset, got {problem}; "
-            "put back in on_reset whatever changes in an episode"
+            _("forgets"),
+            _(
+                "expected the same {words} again after a reset, got {problem}; put back in "
+                "on_reset whatever changes in an episode",
+                words=self._words,
+                problem=problem,
+            )
             if problem
             else "",
         )
@@ -187,8 +213,13 @@ class BlockCheck:
         for number, (one, other) in enumerate(zip(self.records, others, strict=False)):
             expected, got = self._of(one), self._of(other)
             if frozen(expected) != frozen(got):
-                return f"{short(got)} in place of {short(expected)} after decision {number}"
-        return "" if len(others) == len(self.records) else "episodes of other lengths"
+                return _(
+                    "{got} in place of {expected} after decision {number}",
+                    got=short(got),
+                    expected=short(expected),
+                    number=number,
+                )
+        return "" if len(others) == len(self.records) else _("episodes of other lengths")
 
 
 def run_static_checks(report: Report, block: Block, says: str) -> None:
@@ -202,17 +233,20 @@ def run_static_checks(report: Report, block: Block, says: str) -> None:
     cls = type(block)
     written = (cls.__dict__.get("__doc__") or "").strip()
     report.add(
-        "documented",
+        _("documented"),
         ""
         if written
-        else f"expected a docstring that says {says}, got none; write one under the class line",
+        else _(
+            "expected a docstring that says {says}, got none; write one under the class line",
+            says=says,
+        ),
     )
     plain = to_plain(block)
     if not is_serializable(cls) or _holds_a_function(plain):
-        why = "it holds a Python function, which no file can say"
-        report.add("scene file", why, outcome=Outcome.NOT_APPLICABLE)
+        why = _("it holds a Python function, which no file can say")
+        report.add(_("scene file"), why, outcome=Outcome.NOT_APPLICABLE)
         return
-    report.add("scene file", _lost(block, plain))
+    report.add(_("scene file"), _lost(block, plain))
 
 
 def _lost(block: Block, plain: Any) -> str:
@@ -221,8 +255,20 @@ def _lost(block: Block, plain: Any) -> str:
     try:
         again = to_plain(from_plain(kind, json.loads(json.dumps(plain))))
     except (AI4UError, TypeError, ValueError) as error:
-        return f"expected {plain} to make the same block, got {error}; {_HINT}"
-    return "" if again == plain else f"expected {plain} back, got {again}; {_HINT}"
+        return _(
+            "expected {plain} to make the same block, got {error}; {hint}",
+            plain=str(plain),
+            error=text_of(error),
+            hint=_HINT,
+        )
+    if again == plain:
+        return ""
+    return _(
+        "expected {plain} back, got {again}; {hint}",
+        plain=str(plain),
+        again=str(again),
+        hint=_HINT,
+    )
 
 
 def _holds_a_function(plain: Any) -> bool:
@@ -244,8 +290,14 @@ def warn_of_groups(report: Report, blocks: Iterable[tuple[str, Block]], view: Wo
     looking = [(words, block) for words, block in blocks if names_groups(block)]
     if not looking:
         return
-    missing = [words + text for words, block in looking for text in missing_groups(block, view)]
-    report.add("groups", "; ".join(missing), outcome=Outcome.WARNING if missing else None)
+    missing = [
+        join([words, text], "") for words, block in looking for text in missing_groups(block, view)
+    ]
+    report.add(
+        _("groups"),
+        join(missing, "; ") if missing else "",
+        outcome=Outcome.WARNING if missing else None,
+    )
 
 
 def warn_of_no_end(report: Report, rewards: Iterable[tuple[str, RewardFunc]]) -> None:
@@ -258,14 +310,18 @@ def warn_of_no_end(report: Report, rewards: Iterable[tuple[str, RewardFunc]]) ->
     ending = [(words, reward) for words, reward in rewards if reward.cause_episode_to_end]
     if not ending:
         return
-    vain = [words + why for words, reward in ending if (why := _why_it_never_ends(reward))]
-    report.add("ends", "; ".join(vain), outcome=Outcome.WARNING if vain else None)
+    vain = [
+        join([words, why], "") for words, reward in ending if (why := _why_it_never_ends(reward))
+    ]
+    report.add(
+        _("ends"), join(vain, "; ") if vain else "", outcome=Outcome.WARNING if vain else None
+    )
 
 
 def _why_it_never_ends(reward: RewardFunc) -> str:
     """Return why a reward can't end an episode, as a sentence; empty if it can."""
     if isinstance(reward, EvalValue):
-        return (
+        return _(
             "expected a condition inside an AndRewardFunc or OrRewardFunc, with "
             "cause_episode_to_end there: alone it pays nothing, so the episode never ends by it"
         )
@@ -274,15 +330,16 @@ def _why_it_never_ends(reward: RewardFunc) -> str:
     amounts = [name for name in reward.parameters() if ("_" + name).endswith("_reward")]
     if not amounts or any(getattr(reward, name) for name in amounts):
         return ""
-    return (
-        f"expected an amount other than 0 in {' or '.join(amounts)}, got 0: the episode ends "
-        "only where something is paid, so it never ends by it"
+    return _(
+        "expected an amount other than 0 in {names}, got 0: the episode ends only where something "
+        "is paid, so it never ends by it",
+        names=" or ".join(amounts),
     )
 
 
 def _global_generator_states() -> dict[str, str]:
     """Return the states of Python's and numpy's global random generators."""
-    _, state, *rest = np.random.get_state(legacy=True)
+    _name, state, *rest = np.random.get_state(legacy=True)
     return {
         "random": repr(random.getstate()),
         "numpy.random": repr((np.asarray(state).tobytes(), rest)),
@@ -304,4 +361,5 @@ def short(value: Any) -> str:
 
 def format_error(error: Exception) -> str:
     """Return an error's type, message and notes as one line."""
-    return "; ".join([f"{type(error).__name__}: {error}", *getattr(error, "__notes__", [])])
+    told = join([type(error).__name__, text_of(error)], ": ")
+    return join([told, *getattr(error, "__notes__", [])], "; ")

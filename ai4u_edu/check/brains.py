@@ -12,6 +12,7 @@ from ai4u_edu.check.block_check import (
 )
 from ai4u_edu.check.report import Report
 from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 
@@ -85,9 +86,9 @@ def _check(
         ),
         options,
         of=lambda record: record.answer,
-        words="answers",
+        words=_("answers"),
     )
-    run_static_checks(report, block, "what it does")
+    run_static_checks(report, block, _("what it does"))
     if checks.run():
         checks.changes(warning=True)
     return report

@@ -4,6 +4,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import Text, join, translate
+from ai4u_edu.locale import gettext as _
 
 
 class CheckError(AI4UError):
@@ -20,6 +22,14 @@ class Outcome(StrEnum):
     NOT_APPLICABLE = "not applicable"
 
 
+_OUTCOMES = {
+    Outcome.PASSED: _("passed"),
+    Outcome.FAILED: _("FAILED"),
+    Outcome.WARNING: _("warning"),
+    Outcome.NOT_APPLICABLE: _("not applicable"),
+}
+
+
 @dataclass(frozen=True, slots=True)
 class Finding:
     """One check and its result."""
@@ -30,8 +40,16 @@ class Finding:
     """Expected, got and how to mend it; or why the check doesn't apply. Empty if it passed."""
 
     def __str__(self) -> str:
-        """Return the finding as one line."""
-        return f"{self.outcome:<14}  {self.check}" + (f": {self.text}" if self.text else "")
+        """Return the finding as one line, in the language of the terminal or notebook."""
+        return translate(self.line)
+
+    @property
+    def line(self) -> str:
+        """The finding as one line, as a text that can be translated."""
+        line = Text(
+            "{outcome:<14}  {check}", {"outcome": _OUTCOMES[self.outcome], "check": self.check}
+        )
+        return join([line, self.text], ": ") if self.text else line
 
 
 @dataclass
@@ -79,10 +97,19 @@ class Report:
             CheckError: at least one check failed.
         """
         if not self.ok:
-            raise CheckError(str(self))
+            raise CheckError(self.text)
 
     def __str__(self) -> str:
-        """Return a summary line, then a line for each finding."""
+        """Return :attr:`text` in the language of the terminal or notebook."""
+        return translate(self.text)
+
+    @property
+    def text(self) -> str:
+        """A summary line, then a line for each finding, as a text that can be translated."""
         failed, total = len(self.failed), len(self.findings)
-        short = f"{failed} of {total} checks failed" if failed else f"in order ({total} checks)"
-        return "\n".join([f"{self.subject}: {short}", *(f"  {each}" for each in self.findings)])
+        if failed:
+            summary = _("{failed} of {total} checks failed", failed=failed, total=total)
+        else:
+            summary = _("in order ({total} checks)", total=total)
+        lines = [Text("  {line}", {"line": each.line}) for each in self.findings]
+        return join([join([self.subject, summary], ": "), *lines], "\n")

@@ -11,6 +11,7 @@ from ai4u_edu.check.block_check import (
 )
 from ai4u_edu.check.report import Report
 from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 
@@ -50,9 +51,9 @@ def check_reward(
         lambda: Rollout(the_scene, fresh(reward), script=script),
         options,
         of=lambda record: next(iter(record.terms.values())).get(name),
-        words="rewards",
+        words=_("rewards"),
     )
-    run_static_checks(report, reward, "what it pays for")
+    run_static_checks(report, reward, _("what it pays for"))
     warn_of_no_end(report, [("", reward)])
     if checks.run():
         warn_of_groups(report, [("", reward)], checks.view)

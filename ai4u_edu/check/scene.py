@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent, ControlRequestor
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Block, RespawnActuator, RewardFunc
 from ai4u_edu.check.block_check import (
     DEFAULT_DECISIONS,
@@ -21,6 +21,8 @@ from ai4u_edu.check.block_check import (
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Rollout, RolloutStep, Script, title_of
 from ai4u_edu.check.sensors import not_in
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.scenes import Scene
 
 TEXTS = ("title", "goal", "controls", "rewards")
@@ -56,20 +58,23 @@ def check_scene(
     report = Report(the_scene.description.name)
     missing = [text for text in TEXTS if not getattr(the_scene.description, text)]
     report.add(
-        "documented",
-        f"expected a title, a goal, controls and rewards in words, got no {', no '.join(missing)}"
+        _("documented"),
+        _(
+            "expected a title, a goal, controls and rewards in words, got no {names}",
+            names=", no ".join(missing),
+        )
         if missing
         else "",
         outcome=Outcome.WARNING if missing else None,
     )
-    report.add("scene file", _lost(the_scene))
+    report.add(_("scene file"), _lost(the_scene))
     rollouts: list[Rollout] = []
 
     def make() -> Rollout:
         rollouts.append(Rollout(the_scene, script=script))
         return rollouts[-1]
 
-    checks = BlockCheck(report, make, options, of=_all_of, words="world")
+    checks = BlockCheck(report, make, options, of=_all_of, words=_("world"))
     if checks.run():
         _look_at_agents(report, rollouts[0].sim.agents)
         _warn(report, rollouts[0].sim.agents)
@@ -77,8 +82,11 @@ def check_scene(
         _look_at_rewards(report, rollouts[0], checks.records)
         odd = _implausible_places(the_scene.build(), seed)
         report.add(
-            "places",
-            f"expected agents that can move and stand where they are put, got: {'; '.join(odd)}"
+            _("places"),
+            _(
+                "expected agents that can move and stand where they are put, got: {names}",
+                names=join(odd, "; "),
+            )
             if odd
             else "",
             outcome=Outcome.WARNING if odd else None,
@@ -90,8 +98,10 @@ def _lost(scene: Scene) -> str:
     try:
         again = Scene.loads(scene.dumps())
     except AI4UError as error:
-        return f"expected the same scene back from its file, got {error}"
-    return "" if again == scene else "expected the same scene back from its file, got another one"
+        return _("expected the same scene back from its file, got {error}", error=text_of(error))
+    if again == scene:
+        return ""
+    return _("expected the same scene back from its file, got another one")
 
 
 def _all_of(record: RolloutStep) -> Any:
@@ -101,22 +111,28 @@ def _all_of(record: RolloutStep) -> Any:
 
 def _look_at_agents(report: Report, agents: Sequence[BasicAgent]) -> None:
     """Warn of agents without a sensor or an actuator of their own."""
-    bare = []
+    bare: list[str] = []
     for agent in agents:
         bound = agent.bound_blocks
         if not any(sensor in bound.sensors for sensor in agent.sensors):
             bare.append(
-                f"agent {agent.id!r} has no sensor, so its brain knows nothing of the world; "
-                "give it one, as in sensors: [{type: OrientationSensor, target: NAME}]"
+                _(
+                    "agent {id!r} has no sensor, so its brain knows nothing of the world; give it "
+                    "one, as in sensors: [{{type: OrientationSensor, target: NAME}}]",
+                    id=agent.id,
+                )
             )
         if not any(actuator.is_output for actuator in bound.actuators.values()):
             bare.append(
-                f"agent {agent.id!r} has no actuator, so nothing that its brain decides has an "
-                "effect; give it one, as in actuators: [{type: RBMoveActuator}]"
+                _(
+                    "agent {id!r} has no actuator, so nothing that its brain decides has an "
+                    "effect; give it one, as in actuators: [{{type: RBMoveActuator}}]",
+                    id=agent.id,
+                )
             )
     report.add(
-        "senses and acts",
-        "; ".join(bare),
+        _("senses and acts"),
+        join(bare, "; ") if bare else "",
         outcome=Outcome.WARNING if bare else None,
     )
 
@@ -127,7 +143,7 @@ def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
     for agent in agents:
         bound = agent.bound_blocks  # what is switched off sits on no body
         for block in (*bound.sensors, *bound.actuators.values(), *bound.rewards):
-            words = f"agent {agent.id!r}, {title_of(block)}: "
+            words = _("agent {id!r}, {block}: ", id=agent.id, block=title_of(block))
             blocks.append((words, block))
             if isinstance(block, RewardFunc):
                 rewards.append((words, block))
@@ -136,26 +152,40 @@ def _warn(report: Report, agents: Sequence[BasicAgent]) -> None:
 
 
 def _look_at_sensors(report: Report, rollout: Rollout, records: list[RolloutStep]) -> None:
-    wrong, still = [], []
+    wrong: list[str] = []
+    still: list[str] = []
     for agent in rollout.sim.agents:
         for sensor in agent.bound_blocks.sensors:
             key, space = sensor.perception_key, sensor.observation_space()
             values = [record.percepts[agent.id][key] for record in records]
             for value in values:
                 finite = isinstance(value, str | tuple) or np.isfinite(value).all()
-                expected = not_in(space, value) if finite else "finite numbers"
+                expected = not_in(space, value) if finite else _("finite numbers")
                 if expected:
-                    wrong.append(f"agent {agent.id!r}, {key!r}: {expected}, got {short(value)}")
+                    wrong.append(
+                        _(
+                            "agent {id!r}, {key!r}: {expected}, got {got}",
+                            id=agent.id,
+                            key=key,
+                            expected=expected,
+                            got=short(value),
+                        )
+                    )
                     break
             if sensor.is_input and all(frozen(each) == frozen(values[0]) for each in values):
-                still.append(f"{key!r} of agent {agent.id!r}")
+                still.append(_("{name!r} of agent {id!r}", name=key, id=agent.id))
     report.add(
-        "in its space",
-        f"expected readings as the sensors' spaces say: {'; '.join(wrong)}" if wrong else "",
+        _("in its space"),
+        _("expected readings as the sensors' spaces say: {names}", names=join(wrong, "; "))
+        if wrong
+        else "",
     )
     report.add(
-        "changes",
-        f"expected readings that change, got always the same from {', '.join(still)}"
+        _("changes"),
+        _(
+            "expected readings that change, got always the same from {names}",
+            names=join(still, ", "),
+        )
         if still
         else "",
         outcome=Outcome.WARNING if still else None,
@@ -163,16 +193,19 @@ def _look_at_sensors(report: Report, rollout: Rollout, records: list[RolloutStep
 
 
 def _look_at_rewards(report: Report, rollout: Rollout, records: list[RolloutStep]) -> None:
-    never = [
-        f"{reward.name!r} of agent {agent.id!r}"
+    never: list[str] = [
+        _("{name!r} of agent {id!r}", name=reward.name, id=agent.id)
         for agent in rollout.sim.agents
         for reward in agent.bound_blocks.rewards
         if not any(record.terms[agent.id].get(reward.name) for record in records)
     ]
     report.add(
-        "pays",
-        f"expected every reward to be paid at some time, got nothing from {', '.join(never)}; a "
-        "random drive may just not have got there"
+        _("pays"),
+        _(
+            "expected every reward to be paid at some time, got nothing from {names}; a random "
+            "drive may just not have got there",
+            names=join(never, ", "),
+        )
         if never
         else "",
         outcome=Outcome.WARNING if never else None,
@@ -197,9 +230,13 @@ def _immovable(sim: ControlRequestor) -> Iterator[str]:
     for agent in sim.agents:
         driven = [name for name, each in agent.bound_blocks.actuators.items() if each.is_output]
         if driven and not agent.body.moves:
-            yield (
-                f"agent {agent.id!r} is on body {agent.body_name!r}, which can't move (its kind is "
-                f"{agent.body.description.kind!r}), and has the actuator {driven[0]!r}"
+            yield _(
+                "agent {id!r} is on body {body!r}, which can't move (its kind is {kind!r}), and "
+                "has the actuator {name!r}",
+                id=agent.id,
+                body=agent.body_name,
+                kind=agent.body.description.kind,
+                name=driven[0],
             )
 
 
@@ -207,7 +244,12 @@ def _over_the_void(sim: ControlRequestor) -> Iterator[str]:
     for body in sim.world.bodies.values():
         if body.moves and not body.fallen and sim.world.ground(*body.position) is None:
             x, y = body.position
-            yield f"body {body.name!r} begins over the void, at ({x:g}, {y:g}), and falls"
+            yield _(
+                "body {name!r} begins over the void, at ({x:g}, {y:g}), and falls",
+                name=body.name,
+                x=x,
+                y=y,
+            )
 
 
 def _respawn_poses(sim: ControlRequestor) -> Iterator[str]:
@@ -220,11 +262,18 @@ def _respawn_poses(sim: ControlRequestor) -> Iterator[str]:
 def _poses_of(sim: ControlRequestor, agent: BasicAgent, actuator: RespawnActuator) -> Iterator[str]:
     body = agent.body
     for number, (x, y, heading_deg) in enumerate(actuator.poses):
-        where = f"pose {number} of {actuator.action_name!r} of agent {agent.id!r}, ({x:g}, {y:g}),"
+        pose = _(
+            "pose {number} of {name!r} of agent {id!r}, ({x:g}, {y:g}),",
+            number=number,
+            name=actuator.action_name,
+            id=agent.id,
+            x=x,
+            y=y,
+        )
         if sim.world.ground(x, y) is None:
-            yield f"{where} lies over the void"
+            yield _("{pose} lies over the void", pose=pose)
             continue
         body.move_to(x, y, heading=math.radians(heading_deg))
         other = sim.world.find_overlap(body)
         if other is not None:
-            yield f"{where} lies in body {other.name!r}"
+            yield _("{pose} lies in body {name!r}", pose=pose, name=other.name)

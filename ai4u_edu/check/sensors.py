@@ -17,6 +17,7 @@ from ai4u_edu.check.block_check import (
 )
 from ai4u_edu.check.report import Outcome, Report
 from ai4u_edu.check.rollout import Rollout, Script, fresh, title_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 
@@ -66,16 +67,16 @@ def check_sensor(
         make,
         options,
         of=lambda record: next(iter(record.percepts.values()))[sensor.perception_key],
-        words="readings",
+        words=_("readings"),
     )
-    run_static_checks(report, sensor, "what it reads")
-    if checks.run(reset_exemption="" if sensor.resetable else "resetable is off"):
+    run_static_checks(report, sensor, _("what it reads"))
+    if checks.run(reset_exemption="" if sensor.resetable else _("resetable is off")):
         warn_of_groups(report, [("", sensor)], checks.view)
         values = checks.values()
         is_text = isinstance(values[0], str | tuple)
         outcome = Outcome.NOT_APPLICABLE if is_text else None
-        report.add("finite", _not_finite(values), outcome=outcome)
-        report.add("in its space", _out_of_space(values, copies[0].observation_space()))
+        report.add(_("finite"), _not_finite(values), outcome=outcome)
+        report.add(_("in its space"), _out_of_space(values, copies[0].observation_space()))
         _unshared(report, reads)
         checks.only_looks(Rollout(the_scene, without=sensor, script=script))
         checks.changes(warning=not sensor.is_input)
@@ -88,17 +89,18 @@ def not_in(space: spaces.Space[Any], reading: Any) -> str:
         array = np.asarray(reading, np.float64)
         slack = 1e-5 * (1 + np.abs(array))
         if (array < space.low - slack).any() or (array > space.high + slack).any():
-            return f"numbers from {space.low.min():g} to {space.high.max():g}"
+            low, high = float(space.low.min()), float(space.high.max())
+            return _("numbers from {low:g} to {high:g}", low=low, high=high)
         return ""
     if isinstance(space, spaces.Text):
         texts = reading if isinstance(reading, tuple) else (reading,)
         fits = all(len(each) <= space.max_length for each in texts)
-        return "" if fits else f"up to {space.max_length} characters"
+        return "" if fits else _("up to {count} characters", count=space.max_length)
     if isinstance(space, spaces.Sequence):
         return next(filter(None, (not_in(space.feature_space, each) for each in reading)), "")
     if isinstance(space, spaces.Tuple):
         if len(reading) != len(space.spaces):
-            return f"{len(space.spaces)} texts"
+            return _("{count} texts", count=len(space.spaces))
         return next(filter(None, map(not_in, space.spaces, reading)), "")
     return "" if space.contains(np.int64(reading)) else str(space)
 
@@ -116,12 +118,14 @@ def _record_reads(sensor: Any, reads: list[Any]) -> None:
 
 def _not_finite(values: list[Any]) -> str:
     if isinstance(values[0], str | tuple):
-        return "it reads text"
+        return _("it reads text")
     for number, value in enumerate(values):
         if not np.isfinite(value).all():
-            return (
-                f"expected finite numbers, got {short(value)} after decision {number}; "
-                "does it divide by zero, or take the root of a negative number?"
+            return _(
+                "expected finite numbers, got {got} after decision {number}; does it divide by "
+                "zero, or take the root of a negative number?",
+                got=short(value),
+                number=number,
             )
     return ""
 
@@ -130,23 +134,26 @@ def _out_of_space(values: list[Any], space: spaces.Space[Any]) -> str:
     for number, value in enumerate(values):
         expected = not_in(space, value)
         if expected:
-            return (
-                f"expected {expected} as its space() says, got {short(value)} after decision "
-                f"{number}; widen the space, or cut the reading"
+            return _(
+                "expected {expected} as its space() says, got {got} after decision {number}; widen "
+                "the space, or cut the reading",
+                expected=expected,
+                got=short(value),
+                number=number,
             )
     return ""
 
 
 def _unshared(report: Report, reads: list[Any]) -> None:
     if not reads:
-        why = "it writes its reading in place, and a percept is a copy"
-        report.add("unshared", why, outcome=Outcome.NOT_APPLICABLE)
+        why = _("it writes its reading in place, and a percept is a copy")
+        report.add(_("unshared"), why, outcome=Outcome.NOT_APPLICABLE)
         return
     arrays = [read for read in reads if isinstance(read, np.ndarray)]
     shared = any(np.shares_memory(one, other) for one, other in pairwise(arrays))
     report.add(
-        "unshared",
-        "expected a new array from every read, got the same memory twice; return a copy of it"
+        _("unshared"),
+        _("expected a new array from every read, got the same memory twice; return a copy of it")
         if shared
         else "",
     )

@@ -32,6 +32,7 @@ from ai4u_edu.locale.text import (
     gettext,
     join,
     library_text,
+    listed,
     ngettext,
     sentence,
 )
@@ -55,6 +56,7 @@ __all__ = [
     "language_of_header",
     "language_of_page",
     "library_text",
+    "listed",
     "ngettext",
     "page_catalogue",
     "reader",

@@ -1,6 +1,6 @@
 """Sentences that can be shown in several languages; in code they are English."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Final, Self
 
 PYTHON: Final = "ai4u_edu"
@@ -94,7 +94,7 @@ def ngettext(one: str, many: str, number: int, /, **values: Value) -> Text:
     return Text(one, {"n": number, **values}, many, number)
 
 
-def join(texts: list[str], separator: str = " ") -> Text:
+def join(texts: Sequence[str], separator: str = " ") -> Text:
     """Return several sentences as one text.
 
     >>> join([gettext("Saved."), gettext("It works after the next start.")])
@@ -102,6 +102,17 @@ def join(texts: list[str], separator: str = " ") -> Text:
     """
     values = {f"text{number}": text for number, text in enumerate(texts)}
     return Text(separator.join(f"{{{name}}}" for name in values), values)
+
+
+def listed(names: Sequence[str]) -> str:
+    """Return names as a list in a sentence.
+
+    >>> [listed(names) for names in (["a"], ["a", "b"], ["a", "b", "c"])]
+    ['a', 'a and b', 'a, b and c']
+    """
+    if len(names) < 2:
+        return names[0] if names else ""
+    return gettext("{names} and {last}", names=join(names[:-1], ", "), last=names[-1])
 
 
 def sentence(text: str) -> str:

@@ -12,6 +12,7 @@ from ai4u_edu.agent.ledger import HANDLERS
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.base.parameters import DataPath, Name, ParameterProblem, quantity
 from ai4u_edu.blocks.rewards.combined import CombinedRewardFunc
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.serialization import PlainDataError, make
 from ai4u_edu.world import (
     AreaDescription,
@@ -152,8 +153,14 @@ def check_success(success: str | None, agents: Sequence[BasicAgent]) -> None:
         for reward in agent.rewards
         if isinstance(reward, CombinedRewardFunc) and success in _names_below(reward)
     ]
-    hint = f"it is paid under the name {parents[0]!r}" if parents else suggest(success, terms)
-    text = f"no reward function has the name {success!r}, so no episode could succeed; {hint}"
+    hint = suggest(success, terms)
+    if parents:
+        hint = _("it is paid under the name {name!r}", name=parents[0])
+    text = _(
+        "no reward function has the name {name!r}, so no episode could succeed; {hint}",
+        name=success,
+        hint=hint,
+    )
     raise PlainDataError([ParameterProblem(("success",), text)])
 
 

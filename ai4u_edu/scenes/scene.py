@@ -10,10 +10,12 @@ from yaml import YAMLError
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest
+from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest, text_of
 from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.network import files_in
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.serialization import PlainDataError
 from ai4u_edu.scenes.setup_errors import path_of
@@ -65,15 +67,20 @@ class Scene:
             path = LIBRARY / f"{source}.yaml"
             if not path.is_file() or path.parent != LIBRARY:
                 raise SceneError(
-                    f"no scene is called {str(source)!r}; {suggest(str(source), cls.names())}; "
-                    "a file's name ends in .yaml"
+                    _(
+                        "no scene is called {source}; {hint}; a file's name ends in .yaml",
+                        source=repr(str(source)),
+                        hint=suggest(str(source), cls.names()),
+                    )
                 )
         try:
             text = path.read_text(encoding="utf-8-sig")  # a byte order mark is skipped
         except OSError as error:
-            raise SceneError(f"{path}: can't be read: {error.strerror}") from None
+            raise SceneError(
+                _("{path}: can't be read: {why}", path=str(path), why=str(error.strerror))
+            ) from None
         except UnicodeDecodeError as error:
-            raise SceneError(f"{path}: {_no_utf8(path, error)}") from None
+            raise SceneError(join([str(path), _no_utf8(path, error)], ": ")) from None
         # resets take two thirds of the time; those of the library are reset in the tests
         resets = 1 if path.parent == LIBRARY else RANDOM_RESETS
         return cls._read(text, path.name, path.absolute().parent, resets)
@@ -115,13 +122,13 @@ class Scene:
             raise _scene_error(file, error.problems) from None
         except WorldError as error:
             raise _scene_error(
-                file, [ParameterProblem(description.where_is(error.thing), str(error))]
+                file, [ParameterProblem(description.where_is(error.thing), text_of(error))]
             ) from None
         except AI4UError as error:
             path = path_of(error, description.agents)
             if not path:
-                raise SceneError(f"{name}: {error}") from None
-            raise _scene_error(file, [ParameterProblem(path, str(error))]) from None
+                raise SceneError(join([name, text_of(error)], ": ")) from None
+            raise _scene_error(file, [ParameterProblem(path, text_of(error))]) from None
         return scene
 
     @staticmethod
@@ -197,13 +204,16 @@ def _no_utf8(path: Path, error: UnicodeDecodeError) -> str:
     """Return the error for a file that is no UTF-8 text."""
     head = error.object[:4]
     if head[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return "expected UTF-8 text, got UTF-16; save it as UTF-8 in your editor"
+        return _("expected UTF-8 text, got UTF-16; save it as UTF-8 in your editor")
     if b"\0" in error.object:
-        return "expected a scene file, which is UTF-8 text, got a file that is no text"
+        return _("expected a scene file, which is UTF-8 text, got a file that is no text")
     line = error.object[: error.start].count(b"\n") + 1
-    return (
-        f"line {line}: expected UTF-8 text, got the byte 0x{error.object[error.start]:02x}; save "
-        f"{path.name} as UTF-8 in your editor"
+    return _(
+        "line {line}: expected UTF-8 text, got the byte 0x{byte:02x}; save {name} as UTF-8 in your "
+        "editor",
+        line=line,
+        byte=error.object[error.start],
+        name=path.name,
     )
 
 
@@ -243,7 +253,16 @@ def _scene_error(
     file: YamlFile, problems: "list[ParameterProblem] | tuple[ParameterProblem, ...]"
 ) -> SceneError:
     shown = problems[:MAX_ERRORS]
-    lines = [f"{file.name}, line {file.line(each.path)}: {each}" for each in shown]
+    lines = [
+        _(
+            "{name}, line {line}: {problem}",
+            name=file.name,
+            line=file.line(each.path),
+            problem=each.message,
+        )
+        for each in shown
+    ]
     if len(problems) > len(shown):
-        lines.append(f"{file.name}: and {len(problems) - len(shown)} more like these")
-    return SceneError("\n".join(lines))
+        more = len(problems) - len(shown)
+        lines.append(_("{name}: and {count} more like these", name=file.name, count=more))
+    return SceneError(join([*lines], "\n"))

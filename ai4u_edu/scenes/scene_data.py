@@ -8,6 +8,7 @@ from typing import Any
 
 from ai4u_edu.base.errors import SceneError, shorten
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.scene import Scene
 
 SceneData = dict[str, Any]
@@ -54,7 +55,11 @@ def _scene(text: str) -> Scene:
     texts = [data.get(name) for name in wanted] + (blocks if isinstance(blocks, list) else [None])
     if data.keys() - {"blocks"} != wanted or not all(isinstance(each, str) for each in texts):
         raise SceneError(
-            f"expected a scene as data, with {', '.join(sorted(wanted))}, got {shorten(text, 200)}"
+            _(
+                "expected a scene as data, with {names}, got {data}",
+                names=", ".join(sorted(wanted)),
+                data=shorten(text, 200),
+            )
         )
     for file in data.get("blocks", ()):
         _load_blocks(Path(file))

@@ -15,6 +15,7 @@ from urllib.parse import parse_qsl
 
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.base.seeding import MAX_SEED, checked_seed
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.yaml.file import MAX_SCENE_CHARS
 
 MAX_LINK_CHARS = 100_000
@@ -63,8 +64,12 @@ def encode_link(text: str, seed: int | None = None) -> str:
     link = f"scene={data}" + ("" if seed is None else f"&seed={seed}")
     if len(link) > MAX_LINK_CHARS or len(text) > MAX_SCENE_CHARS:
         raise SceneError(
-            f"expected a scene that fits into a link of {MAX_LINK_CHARS} characters, got one that "
-            f"takes {len(link)}; download the scene and share its file"
+            _(
+                "expected a scene that fits into a link of {max_link_chars} characters, got one "
+                "that takes {count}; download the scene and share its file",
+                max_link_chars=MAX_LINK_CHARS,
+                count=len(link),
+            )
         )
     return link
 
@@ -84,13 +89,22 @@ def decode_link(link: str) -> SceneLink:
     """
     if len(link) > 2 * MAX_LINK_CHARS:
         raise SceneError(
-            f"{LINK}: expected at most {MAX_LINK_CHARS} characters, got {len(link)}; ask for the "
-            "scene's file"
+            _(
+                "{link}: expected at most {max_link_chars} characters, got {count}; ask for the "
+                "scene's file",
+                link=LINK,
+                max_link_chars=MAX_LINK_CHARS,
+                count=len(link),
+            )
         )
     link = "".join(link.split())
     if not is_link(link):
         raise SceneError(
-            f"{LINK}: expected #scene=..., got {link[:40]!r}; copy the whole link again"
+            _(
+                "{link}: expected #scene=..., got {link2}; copy the whole link again",
+                link=LINK,
+                link2=repr(link[:40]),
+            )
         )
     values = dict(parse_qsl(link.rpartition("#")[2], keep_blank_values=True))
     return SceneLink(_text(values.get("scene", "")), _seed(values.get("seed")))
@@ -100,8 +114,13 @@ def _text(data: str) -> str:
     """Return the scene's text; the size is checked while it is decompressed."""
     if len(data) > MAX_LINK_CHARS:
         raise SceneError(
-            f"{LINK}: expected at most {MAX_LINK_CHARS} characters, got {len(data)}; ask for the "
-            "scene's file"
+            _(
+                "{link}: expected at most {max_link_chars} characters, got {count}; ask for the "
+                "scene's file",
+                link=LINK,
+                max_link_chars=MAX_LINK_CHARS,
+                count=len(data),
+            )
         )
     if not _DATA.fullmatch(data):
         raise _damaged()
@@ -111,8 +130,12 @@ def _text(data: str) -> str:
         text = unpacking.decompress(packed, MAX_TEXT_BYTES + 1)
         if len(text) > MAX_TEXT_BYTES:
             raise SceneError(
-                f"{LINK}: expected a scene of at most {MAX_TEXT_BYTES} bytes, got a larger one; "
-                "it was not made by AI4U Edu"
+                _(
+                    "{link}: expected a scene of at most {max_text_bytes} bytes, got a larger "
+                    "one; it was not made by AI4U Edu",
+                    link=LINK,
+                    max_text_bytes=MAX_TEXT_BYTES,
+                )
             )
         if not unpacking.eof or unpacking.unused_data:
             raise _damaged()
@@ -126,13 +149,21 @@ def _seed(text: str | None) -> int | None:
         return None
     if not re.fullmatch(r"[0-9]{1,19}", text):
         raise SceneError(
-            f"{LINK}: expected a seed from 0 to {MAX_SEED}, got {text[:40]!r}; copy the whole link "
-            "again"
+            _(
+                "{link}: expected a seed from 0 to {max_seed}, got {text}; copy the whole link "
+                "again",
+                link=LINK,
+                max_seed=MAX_SEED,
+                text=repr(text[:40]),
+            )
         )
     return checked_seed(int(text))
 
 
 def _damaged() -> SceneError:
     return SceneError(
-        f"{LINK} is damaged: a part of it is missing or was changed; copy the whole link again"
+        _(
+            "{link} is damaged: a part of it is missing or was changed; copy the whole link again",
+            link=LINK,
+        )
     )

@@ -6,14 +6,16 @@ from typing import Any, get_args
 
 from pydantic import ValidationError
 
-from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest
+from ai4u_edu.base.errors import AI4UError, ParameterError, shown, suggest, text_of
 from ai4u_edu.base.parameters import MAX_HINTS, DataPath, ParameterProblem, explain, format_problems
 from ai4u_edu.blocks import Actuator, Block, Brain, Controller, RewardFunc, ScriptController, Sensor
 from ai4u_edu.blocks.parameterized import Parameterized
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 KINDS: tuple[type[Block], ...] = (Sensor, Actuator, RewardFunc, Brain, Controller)
 
-OWN = "a block of your own is known once its file is imported, or named with --blocks FILE.py"
+OWN = _("a block of your own is known once its file is imported, or named with --blocks FILE.py")
 """Hint for a type that is not built in."""
 
 
@@ -55,7 +57,11 @@ def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
     """
     if not isinstance(data, Mapping):
         raise PlainDataError(
-            [ParameterProblem(path, f"expected a mapping with a 'type', got {shown(data)}")]
+            [
+                ParameterProblem(
+                    path, _("expected a mapping with a 'type', got {got}", got=shown(data))
+                )
+            ]
         )
     known = {
         name: cls
@@ -64,11 +70,14 @@ def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
     }
     name = data.get("type")
     if name is None:
-        raise PlainDataError([ParameterProblem(path, f"needs a 'type'; {suggest('', known)}")])
+        raise PlainDataError(
+            [ParameterProblem(path, _("needs a 'type'; {hint}", hint=suggest("", known)))]
+        )
     if not isinstance(name, str) or name not in known:
         hint = suggest(name if isinstance(name, str) else "", known)
-        text = f"unknown type of {kind.__name__.lower()} {shown(name)}; {hint}"
-        raise PlainDataError([ParameterProblem((*path, "type"), f"{text}; {OWN}")])
+        unknown = _("unknown type of {kind} {got}", kind=kind.__name__.lower(), got=shown(name))
+        text = join([unknown, hint, OWN], "; ")
+        raise PlainDataError([ParameterProblem((*path, "type"), text)])
     given = {str(key): value for key, value in data.items() if key != "type"}
     made = make(known[name], given, path)
     if not isinstance(made, Block):  # pragma: no cover - known holds blocks only
@@ -94,13 +103,13 @@ def make(cls: type[Parameterized], given: Mapping[str, Any], path: DataPath) -> 
     except ParameterError as error:
         cause = error.details
         if not isinstance(cause, ValidationError):
-            raise PlainDataError([ParameterProblem(path, str(error))]) from None
+            raise PlainDataError([ParameterProblem(path, text_of(error))]) from None
         found = explain(cause.errors(), fields)
         raise PlainDataError(
             [ParameterProblem((*path, *each.path), each.text) for each in found]
         ) from None
     except AI4UError as error:
-        raise PlainDataError([ParameterProblem(path, str(error))]) from None
+        raise PlainDataError([ParameterProblem(path, text_of(error))]) from None
 
 
 def _convert(kind: type[Block], value: Any, path: DataPath) -> Any:

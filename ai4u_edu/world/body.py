@@ -6,6 +6,7 @@ from typing import Any, NoReturn, Protocol
 import pymunk
 
 from ai4u_edu.base.errors import WorldError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.descriptions import BodyDescription
 from ai4u_edu.world.native import MOTION
 
@@ -180,7 +181,7 @@ class Body(BodyView):
     def set_velocity(self, vx: float, vy: float) -> None:
         """Set the velocity in the world's frame, m/s."""
         if not math.isfinite(vx + vy):
-            self._refuse("velocity", (vx, vy))
+            self._refuse(_("velocity"), (vx, vy))
         vector = self._vector
         vector.x, vector.y = vx, vy
         _set_velocity(self._handle, vector)
@@ -188,13 +189,13 @@ class Body(BodyView):
     def set_angular_velocity(self, omega: float) -> None:
         """Set the turning speed, radians per second, counter-clockwise positive."""
         if not math.isfinite(omega):
-            self._refuse("angular velocity", (omega,))
+            self._refuse(_("angular velocity"), (omega,))
         _set_angular_velocity(self._handle, omega)
 
     def apply_force(self, forward: float, left: float) -> None:
         """Push at the centre for one tick; newtons, in the body's own frame."""
         if not math.isfinite(forward + left):
-            self._refuse("force", (forward, left))
+            self._refuse(_("force"), (forward, left))
         vector = self._vector
         vector.x, vector.y = forward, left
         _apply_force(self._handle, vector, _CENTRE)
@@ -202,7 +203,7 @@ class Body(BodyView):
     def jump(self, speed: float) -> None:
         """Leave the ground with an upward speed in m/s; there a downward one has no effect."""
         if not math.isfinite(speed):
-            self._refuse("jump speed", (speed,))
+            self._refuse(_("jump speed"), (speed,))
         if speed > 0.0 or not self.on_ground:  # many actuators call this at each tick
             self._world._physics.launch(self, speed)
 
@@ -267,4 +268,11 @@ class Body(BodyView):
 
     def _refuse(self, what: str, numbers: tuple[Any, ...]) -> NoReturn:
         # a number that is not finite would silently spread to every body in contact
-        raise WorldError(f"{what} of body {self.name!r}: expected finite numbers, got {numbers}")
+        raise WorldError(
+            _(
+                "{what} of body {name!r}: expected finite numbers, got {numbers}",
+                what=what,
+                name=self.name,
+                numbers=str(numbers),
+            )
+        )

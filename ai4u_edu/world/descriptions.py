@@ -19,6 +19,7 @@ from ai4u_edu.base.parameters import (
     not_below,
     quantity,
 )
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.pictures import PictureData
 from ai4u_edu.world.shapes import BodyShape, BoxShape, CircleShape, Description, RegionShape
 
@@ -27,7 +28,7 @@ Tags = tuple[Name, ...]
 
 def _in_order(ends: tuple[float, float]) -> tuple[float, float]:
     if ends[0] > ends[1]:
-        raise ValueError(f"expected the smaller number first, got {list(ends)}")
+        raise ValueError(_("expected the smaller number first, got {ends}", ends=str(list(ends))))
     return ends
 
 
@@ -69,10 +70,10 @@ got [4.0, -4.0]
     @model_validator(mode="after")
     def _has_one_meaning(self) -> Self:
         if self.places and (self.x or self.y):
-            raise ValueError("expected either ranges (x, y) or places, got both; leave one out")
+            raise ValueError(_("expected either ranges (x, y) or places, got both; leave one out"))
         if not (self.x or self.y or self.places or self.heading_deg or self.scale):
             raise ValueError(
-                "nothing is drawn; expected at least one of x, y, places, heading_deg, scale"
+                _("nothing is drawn; expected at least one of x, y, places, heading_deg, scale")
             )
         return self
 
@@ -109,7 +110,9 @@ class EasyRanges(Description):
     @model_validator(mode="after")
     def _has_a_range(self) -> Self:
         if not self.given:
-            raise ValueError(f"no start is easier; expected at least one of {', '.join(RANGES)}")
+            raise ValueError(
+                _("no start is easier; expected at least one of {names}", names=", ".join(RANGES))
+            )
         return self
 
     @property
@@ -140,11 +143,19 @@ class EasyRanges(Description):
             full = None if random is None else getattr(random, name)
             if full is None:
                 raise ValueError(
-                    f"{name} has an easy range, and none in random; expected it in both"
+                    _(
+                        "{name} has an easy range, and none in random; expected it in both",
+                        name=name,
+                    )
                 )
             if not full[0] <= low <= high <= full[1]:
                 raise ValueError(
-                    f"{name}: expected a part of random's range {list(full)}, got {[low, high]}"
+                    _(
+                        "{name}: expected a part of random's range {full}, got {ends}",
+                        name=name,
+                        full=str(list(full)),
+                        ends=str([low, high]),
+                    )
                 )
 
 
@@ -230,7 +241,7 @@ class FloorDescription(RegionDescription):
     @classmethod
     def _needs_no_clearance(cls, random: Variation | None) -> Variation | None:
         if random is not None and random.clearance:
-            raise ValueError("a floor has bodies on it; expected no clearance, leave it out")
+            raise ValueError(_("a floor has bodies on it; expected no clearance, leave it out"))
         return random
 
 
@@ -253,7 +264,10 @@ class AreaDescription(RegionDescription):
     def _is_a_box_with_a_picture(self) -> Self:
         if self.picture is not None and not isinstance(self.shape, BoxShape):
             raise ValueError(
-                f"a picture lies on a box, got a {self.shape.type}; expected "
-                "shape: {type: box, size: [...]}, its size in metres"
+                _(
+                    "a picture lies on a box, got a {type}; expected shape: {{type: box, size: "
+                    "[...]}}, its size in metres",
+                    type=self.shape.type,
+                )
             )
         return self

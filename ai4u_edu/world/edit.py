@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from typing import cast
 
 from ai4u_edu.base.errors import WorldError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.body import Body
 from ai4u_edu.world.descriptions import (
     AreaDescription,
@@ -66,8 +67,14 @@ def edit_body(world: World, description: BodyDescription, pose: Pose | None = No
         body.sampled = drawn
         _restore_motion(world, body, speed, z, fallen=fallen)
         raise WorldError(
-            f"body {body.name!r}: at ({x:.2f}, {y:.2f}) it would overlap body {blocker.name!r}; "
-            "choose another place, or move that one first",
+            _(
+                "body {name!r}: at ({x:.2f}, {y:.2f}) it would overlap body {name2!r}; choose "
+                "another place, or move that one first",
+                name=body.name,
+                x=x,
+                y=y,
+                name2=blocker.name,
+            ),
             thing=body.name,
         )
     return body

@@ -11,6 +11,7 @@ from typing import Any
 import pymunk
 
 from ai4u_edu.base.errors import WorldError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.build import build
 from ai4u_edu.world.contacts import Contacts
@@ -128,12 +129,25 @@ class Physics:
         Raises:
             WorldError: the holder holds a body already, or the other one can't be held.
         """
-        what = f"body {holder.name!r} can't hold {other.name!r}"
         held = self.held_by(holder)
         if held is not None:
-            raise WorldError(f"{what}: it holds {held.name!r}; release that first")
+            raise WorldError(
+                _(
+                    "body {name!r} can't hold {wanted!r}: it holds {held!r}; release that first",
+                    name=holder.name,
+                    wanted=other.name,
+                    held=held.name,
+                )
+            )
         if other is holder or not other.moves or other.fallen or holder.fallen:
-            raise WorldError(f"{what}: expected another body, one that can move and has not fallen")
+            raise WorldError(
+                _(
+                    "body {name!r} can't hold {wanted!r}: expected another body, one that can move "
+                    "and has not fallen",
+                    name=holder.name,
+                    wanted=other.name,
+                )
+            )
         a, b = holder._pm, other._pm
         joints = (
             pymunk.PivotJoint(a, b, b.position),

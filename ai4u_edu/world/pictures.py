@@ -15,6 +15,9 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import AfterValidator, Field
 
+from ai4u_edu.base.errors import shorten
+from ai4u_edu.locale import gettext as _
+
 MAX_PICTURE_BYTES = 2**20
 """Size of a picture's file, and of all those of a scene together."""
 MAX_PICTURE_PIXELS = 4_000_000
@@ -50,7 +53,7 @@ def picture_data(file: bytes) -> str:
     kind = next((kind for start, kind in _SIGNATURES.items() if file.startswith(start)), None)
     if kind is None:
         raise ValueError(
-            "expected a PNG or JPEG file, got another kind of file; save the picture as PNG"
+            _("expected a PNG or JPEG file, got another kind of file; save the picture as PNG")
         )
     if len(file) > MAX_PICTURE_BYTES:
         raise _too_large(len(file))
@@ -72,14 +75,16 @@ def decode_picture(data: str) -> Pixels:
     start = _DATA.match(data)
     if start is None:
         raise ValueError(
-            f"expected data:image/png;base64,... or the name of a PNG or JPEG file beside the "
-            f"scene's file, got {data[:40]!r}; lay the picture in the tab World, or put its file "
-            "there"
+            _(
+                "expected data:image/png;base64,... or the name of a PNG or JPEG file beside the "
+                "scene's file, got {data}; lay the picture in the tab World, or put its file there",
+                data=repr(data[:40]),
+            )
         )
     try:
         file = base64.b64decode(data[start.end() :], validate=True)
     except (binascii.Error, ValueError):
-        raise _damaged("its text is no base64") from None
+        raise _damaged(_("its text is no base64")) from None
     if len(file) > MAX_PICTURE_BYTES:
         raise _too_large(len(file))
     return _decode(file, start[1])
@@ -107,11 +112,14 @@ def _decode(file: bytes, kind: str) -> Pixels:
         raise
     except (Image.DecompressionBombError, Image.DecompressionBombWarning):
         raise ValueError(
-            f"expected a picture of at most {MAX_PICTURE_PIXELS / 1e6:g} megapixels, got a far "
-            "larger one; make it smaller with a program for pictures"
+            _(
+                "expected a picture of at most {megapixels:g} megapixels, got a far "
+                "larger one; make it smaller with a program for pictures",
+                megapixels=MAX_PICTURE_PIXELS / 1e6,
+            )
         ) from None
     except UnidentifiedImageError:
-        raise _damaged("its beginning is wrong") from None
+        raise _damaged(_("its beginning is wrong")) from None
     except (OSError, SyntaxError, ValueError, EOFError, struct.error, zlib.error) as error:
         raise _damaged(str(error)) from None
     pixels.setflags(write=False)  # everybody shares them
@@ -150,9 +158,15 @@ def check_pictures(pictures: Sequence[str]) -> None:
     pixels = sum(math.prod(picture_size(data)) for data in pictures)
     if chars > MAX_PICTURE_CHARS or pixels > MAX_PICTURE_PIXELS:
         raise ValueError(
-            f"expected pictures of together at most {MAX_PICTURE_BYTES // 2**20} MB and "
-            f"{MAX_PICTURE_PIXELS / 1e6:g} megapixels, got {0.75 * chars / 2**20:.1f} MB and "
-            f"{pixels / 1e6:.1f} megapixels; take one out, or make them smaller"
+            _(
+                "expected pictures of together at most {mb} MB and "
+                "{megapixels:g} megapixels, got {got_mb:.1f} MB and {got:.1f} "
+                "megapixels; take one out, or make them smaller",
+                mb=MAX_PICTURE_BYTES // 2**20,
+                megapixels=MAX_PICTURE_PIXELS / 1e6,
+                got_mb=0.75 * chars / 2**20,
+                got=pixels / 1e6,
+            )
         )
 
 
@@ -178,17 +192,28 @@ PictureData = Annotated[
 
 def _too_large(size: int) -> ValueError:
     return ValueError(
-        f"expected a picture of at most {MAX_PICTURE_BYTES // 2**20} MB, got {size / 2**20:.1f} "
-        "MB; save it with fewer pixels, or a photo as JPEG"
+        _(
+            "expected a picture of at most {mb} MB, got {size:.1f} MB; save it "
+            "with fewer pixels, or a photo as JPEG",
+            mb=MAX_PICTURE_BYTES // 2**20,
+            size=size / 2**20,
+        )
     )
 
 
 def _too_many(columns: int, rows: int) -> _PictureSizeError:
     return _PictureSizeError(
-        f"expected a picture of at most {MAX_PICTURE_PIXELS / 1e6:g} megapixels, got {columns} x "
-        f"{rows} pixels; make it smaller with a program for pictures"
+        _(
+            "expected a picture of at most {megapixels:g} megapixels, got {columns} x "
+            "{rows} pixels; make it smaller with a program for pictures",
+            megapixels=MAX_PICTURE_PIXELS / 1e6,
+            columns=columns,
+            rows=rows,
+        )
     )
 
 
 def _damaged(why: str) -> ValueError:
-    return ValueError(f"the picture can't be read: {why[:100]}; save it again as PNG")
+    return ValueError(
+        _("the picture can't be read: {why}; save it again as PNG", why=shorten(why, 100))
+    )

@@ -11,6 +11,8 @@ import pymunk
 from ai4u_edu.base.errors import WorldError, suggest
 from ai4u_edu.base.parameters import Point
 from ai4u_edu.base.seeding import Seeds
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.world.build import core, make_shape, set_material
 from ai4u_edu.world.descriptions import (
     AreaDescription,
@@ -148,7 +150,7 @@ class Places:
             return described
         rng = self._seeds.child(f"random/{described.name}")
         obstacles: dict[str, int] = {}
-        for _ in range(_MAX_SAMPLES):
+        for _draw in range(_MAX_SAMPLES):
             sampled = _sample(described, vary, rng)
             if isinstance(sampled, FloorDescription):
                 self.occupy(sampled)
@@ -177,14 +179,14 @@ class Places:
         return (
             self._bodies.met_by(wide)
             or self._kept_free.met_by(form)
-            or ("" if self._stands(thing, form) else "the end of the floor")
+            or ("" if self._stands(thing, form) else _("the end of the floor"))
         )
 
     def _keep(self, thing: BodyDescription | AreaDescription, form: _Form, wide: _Form) -> None:
         if isinstance(thing, BodyDescription):
-            self._bodies.keep(form, f"body {thing.name!r}")
+            self._bodies.keep(form, _("body {name!r}", name=thing.name))
         if wide is not form:
-            self._kept_free.keep(wide, f"the clearance of {thing.name!r}")
+            self._kept_free.keep(wide, _("the clearance of {name!r}", name=thing.name))
 
     def _stands(self, body: BodyDescription, form: _Form) -> bool:
         """Return True if one floor is under a body's centre and all its corners."""
@@ -204,12 +206,20 @@ class Places:
 
     def _no_place_error(self, thing: Thing, vary: Variation, found: dict[str, int]) -> WorldError:
         most = sorted(found.items(), key=lambda each: -each[1])[:3]
-        reasons = ", ".join(f"{words} ({count} times)" for words, count in most)
-        kind = "body" if isinstance(thing, BodyDescription) else "area"
+        reasons = [_("{thing} ({count} times)", thing=words, count=count) for words, count in most]
+        is_body = isinstance(thing, BodyDescription)
+        body, area = _("body {name!r}", name=thing.name), _("area {name!r}", name=thing.name)
         return WorldError(
-            f"{kind} {thing.name!r}: found no free place in {_MAX_SAMPLES} draws ({vary}; seed "
-            f"{self._seeds.seed}); in the way: {reasons}; give it wider ranges or less clearance, "
-            "or make it smaller",
+            _(
+                "{thing}: found no free place in {max_samples} draws ({vary}; seed "
+                "{seed}); in the way: {reasons}; give it wider ranges or less clearance, or make "
+                "it smaller",
+                thing=body if is_body else area,
+                max_samples=_MAX_SAMPLES,
+                vary=str(vary),
+                seed=self._seeds.seed,
+                reasons=join(reasons, ", "),
+            ),
             thing=thing.name,
         )
 
@@ -350,7 +360,12 @@ def check_field(field: AnyField, things: Sequence[Thing]) -> None:
     for name, parameter in field.names().items():
         if name not in known:
             raise WorldError(
-                f"{parameter}: nothing is named {name!r}; {suggest(name, known)}",
+                _(
+                    "{parameter}: nothing is named {name!r}; {hint}",
+                    parameter=parameter,
+                    name=name,
+                    hint=suggest(name, known),
+                ),
                 thing="generate",
             )
     room = field.room()
@@ -359,8 +374,13 @@ def check_field(field: AnyField, things: Sequence[Thing]) -> None:
             is_placed = thing.name in field.names() or _stands_in(thing, field)
             if is_placed and isinstance(thing, BodyDescription) and thing.shape.reach > room:
                 raise WorldError(
-                    f"body {thing.name!r} reaches {thing.shape.reach:g} m, and a cell has room "
-                    f"for {room:g} m; make the cells larger",
+                    _(
+                        "body {name!r} reaches {reach:g} m, and a cell has room for {room:g} m; "
+                        "make the cells larger",
+                        name=thing.name,
+                        reach=thing.shape.reach,
+                        room=room,
+                    ),
                     thing=thing.name,
                 )
 
@@ -386,6 +406,6 @@ def _nearest_free(field: FieldBase, place: Point, taken: Collection[Point]) -> P
     free = [each for each in cells if each not in taken]
     if not free:
         raise WorldError(
-            "expected a cell for each body that can move; make more cells", thing="generate"
+            _("expected a cell for each body that can move; make more cells"), thing="generate"
         )
     return min(free, key=lambda each: math.dist(each, place))

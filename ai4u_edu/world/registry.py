@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterable
 from itertools import product
 
 from ai4u_edu.base.errors import WorldError
+from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.body import Body
 from ai4u_edu.world.descriptions import (
     AreaDescription,
@@ -21,7 +23,11 @@ MAX_BODIES = 500
 Rectangle = tuple[tuple[float, float], tuple[float, float]]
 _EMPTY_WORLD: Rectangle = (-5.0, -5.0), (5.0, 5.0)
 
-_KIND_NAMES = {BodyDescription: "a body", FloorDescription: "a floor", AreaDescription: "an area"}
+_TAKEN = {
+    BodyDescription: _("{name!r} is already the name of a body; names are unique"),
+    FloorDescription: _("{name!r} is already the name of a floor; names are unique"),
+    AreaDescription: _("{name!r} is already the name of an area; names are unique"),
+}
 
 
 class Registry:
@@ -93,13 +99,19 @@ class Registry:
         others = len(self.bodies) - sum(name in self.bodies for name in self._pieces)
         if others + sum(isinstance(each, BodyDescription) for each in pieces) > MAX_BODIES:
             raise WorldError(
-                f"expected at most {MAX_BODIES} bodies with the walls; make the field smaller",
+                _(
+                    "expected at most {max_bodies} bodies with the walls; make the field smaller",
+                    max_bodies=MAX_BODIES,
+                ),
                 thing="generate",
             )
         for piece in pieces:
             if piece.name in self.described:
                 raise WorldError(
-                    f"{piece.name!r} is the name of a piece of the field; choose another one",
+                    _(
+                        "{name!r} is the name of a piece of the field; choose another one",
+                        name=piece.name,
+                    ),
                     thing=piece.name,
                 )
         for name in self._pieces:
@@ -128,14 +140,15 @@ class Registry:
     def check_name(self, thing: Thing) -> None:
         """Raise a WorldError if a thing's name is taken or the world is full of bodies."""
         known = self.described.get(thing.name)
-        problem = ""
+        problem: str = ""
         if known is not None:
-            kind = _KIND_NAMES[type(known)]
-            problem = f"{thing.name!r} is already the name of {kind}; names are unique"
+            problem = Text(_TAKEN[type(known)].msgid, {"name": thing.name})
         elif isinstance(thing, BodyDescription) and len(self.bodies) >= MAX_BODIES:
-            problem = (
-                f"body {thing.name!r}: the world is full; expected at most {MAX_BODIES} bodies; "
-                "remove some, or build walls from longer segments"
+            problem = _(
+                "body {name!r}: the world is full; expected at most {max_bodies} bodies; remove "
+                "some, or build walls from longer segments",
+                name=thing.name,
+                max_bodies=MAX_BODIES,
             )
         if problem:
             raise WorldError(problem, thing=thing.name)

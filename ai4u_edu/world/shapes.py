@@ -12,6 +12,8 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ai4u_edu.base.errors import ParameterError, shown
 from ai4u_edu.base.parameters import MIN_LENGTH_M, Point, PositiveMetres, explain, format_problems
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 OUTLINE_CORNERS = 48
 
@@ -27,14 +29,18 @@ class Description(BaseModel):
         if values:
             example = next((name for name in type(self).model_fields if name != "type"), "name")
             raise ParameterError(
-                f"{type(self).__name__}: parameters are given by name, as in {example}=..., "
-                f"got {', '.join(map(shown, values))}"
+                _(
+                    "{type}: parameters are given by name, as in {example}=..., got {names}",
+                    type=type(self).__name__,
+                    example=example,
+                    names=", ".join(map(shown, values)),
+                )
             )
         try:
             super().__init__(**fields)
         except ValidationError as error:
             problems = format_problems(explain(error.errors(), type(self)))
-            problem = ParameterError(f"{type(self).__name__}: {problems}")
+            problem = ParameterError(join([type(self).__name__, problems], ": "))
             problem.details = error
             raise problem from None
 
@@ -109,19 +115,23 @@ class PolygonShape(Shape):
             turns.append(math.atan2(dx * ey - dy * ex, dx * ex + dy * ey))
         if all(turn < 0 for turn in turns):
             raise ValueError(
-                "expected the corners counter-clockwise, got them clockwise; reverse them"
+                _("expected the corners counter-clockwise, got them clockwise; reverse them")
             )
         for i, turn in enumerate(turns, start=1):
             if turn <= 0:
                 raise ValueError(
-                    "expected the corners of a convex polygon, counter-clockwise; it turns the "
-                    f"other way (or not at all) at corner {i % len(corners)} "
-                    f"{corners[i % len(corners)]}; build a hollow shape from several bodies"
+                    _(
+                        "expected the corners of a convex polygon, counter-clockwise; it turns "
+                        "the other way (or not at all) at corner {number} {corner}; build a hollow "
+                        "shape from several bodies",
+                        number=i % len(corners),
+                        corner=str(corners[i % len(corners)]),
+                    )
                 )
         if sum(turns) > 3 * math.pi:
-            raise ValueError("expected corners that go round once; they cross themselves")
+            raise ValueError(_("expected corners that go round once; they cross themselves"))
         if _area(corners) < MIN_LENGTH_M**2:
-            raise ValueError(f"expected an area of at least {MIN_LENGTH_M**2:g} m^2")
+            raise ValueError(_("expected an area of at least {area:g} m^2", area=MIN_LENGTH_M**2))
         return self
 
     @property
@@ -180,9 +190,9 @@ class SegmentShape(Shape):
     @model_validator(mode="after")
     def _has_length(self) -> Self:
         if self.a == self.b:
-            raise ValueError(f"expected two different ends, got {self.a} twice")
+            raise ValueError(_("expected two different ends, got {end} twice", end=str(self.a)))
         if math.dist(self.a, self.b) < MIN_LENGTH_M:
-            raise ValueError(f"expected ends at least {MIN_LENGTH_M:g} m apart")
+            raise ValueError(_("expected ends at least {length:g} m apart", length=MIN_LENGTH_M))
         return self
 
     @property
@@ -216,7 +226,13 @@ class RingShape(Shape):
     @model_validator(mode="after")
     def _has_width(self) -> Self:
         if self.outer <= self.inner:
-            raise ValueError(f"outer: expected more than inner ({self.inner}), got {self.outer}")
+            raise ValueError(
+                _(
+                    "outer: expected more than inner ({inner}), got {outer}",
+                    inner=self.inner,
+                    outer=self.outer,
+                )
+            )
         return self
 
     @property

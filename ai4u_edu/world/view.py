@@ -7,6 +7,7 @@ from typing import Any, Literal
 import numpy as np
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.body import BodyView
 from ai4u_edu.world.descriptions import FloorDescription
 from ai4u_edu.world.ink import Ink
@@ -99,13 +100,17 @@ class WorldView:
         """Raise NameNotFoundError, with a suggestion, unless a body or an area has that name."""
         if name not in self:
             known = [*self._world.bodies, *self._world.areas]
-            raise NameNotFoundError(f"no body or area is named {name!r}; {suggest(name, known)}")
+            raise NameNotFoundError(
+                _("no body or area is named {name!r}; {hint}", name=name, hint=suggest(name, known))
+            )
 
     def check_group(self, tag: str) -> None:
         """Raise NameNotFoundError, with a suggestion, unless some body carries that tag."""
         known = self.tags("bodies")
         if tag not in known:
-            raise NameNotFoundError(f"no body carries the tag {tag!r}; {suggest(tag, known)}")
+            raise NameNotFoundError(
+                _("no body carries the tag {tag!r}; {hint}", tag=tag, hint=suggest(tag, known))
+            )
 
     def ground(self, x: float, y: float) -> float | None:
         """Return the height of the highest floor at a place (metres); None over the void."""

@@ -11,6 +11,7 @@ import pymunk
 from ai4u_edu.base.attributes import NoStrayAttributes
 from ai4u_edu.base.errors import NameNotFoundError, WorldError, suggest
 from ai4u_edu.base.seeding import Seeds
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.descriptions import (
     AreaDescription,
@@ -130,7 +131,9 @@ class World(NoStrayAttributes):
         bodies = self._registry.bodies
         body = bodies.get(name)
         if body is None:
-            raise NameNotFoundError(f"no body is named {name!r}; {suggest(name, bodies)}")
+            raise NameNotFoundError(
+                _("no body is named {name!r}; {hint}", name=name, hint=suggest(name, bodies))
+            )
         return body
 
     def _about(self, name: str) -> str:
@@ -139,9 +142,13 @@ class World(NoStrayAttributes):
         near = name if name in settings else suggest(name, settings)
         for each in settings:
             if each in near and len(near) < len(each) + 20:
-                return (
-                    f"has no attribute {name!r}; expected the setting in World({each}=...) or in "
-                    f"the scene, or for one episode in sim.reset(options={{'world.{each}': ...}})"
+                return _(
+                    "{owner} has no attribute {name!r}; expected the setting in "
+                    "World({setting}=...) or in the scene, or for one episode in "
+                    "sim.reset(options={{'world.{setting}': ...}})",
+                    owner=type(self).__name__,
+                    name=name,
+                    setting=each,
                 )
         return super()._about(name)
 
@@ -356,8 +363,14 @@ class World(NoStrayAttributes):
         other = self.find_overlap(body)
         if other is not None:
             raise WorldError(
-                f"body {body.name!r}: its place {body.sampled.position} overlaps body "
-                f"{other.name!r} at {other.sampled.position}; move one of them",
+                _(
+                    "body {name!r}: its place {position} overlaps body {name2!r} at {position2}; "
+                    "move one of them",
+                    name=body.name,
+                    position=str(body.sampled.position),
+                    name2=other.name,
+                    position2=str(other.sampled.position),
+                ),
                 thing=body.name,
             )
 
@@ -543,8 +556,13 @@ class World(NoStrayAttributes):
             if not body.is_finite:
                 x, y = body.position
                 raise WorldError(
-                    f"body {body.name!r} is at ({x}, {y}): the physics went out of range; "
-                    "are masses or speeds extreme?"
+                    _(
+                        "body {name!r} is at ({x}, {y}): the physics went out of range; are "
+                        "masses or speeds extreme?",
+                        name=body.name,
+                        x=x,
+                        y=y,
+                    )
                 )
 
 

@@ -9,6 +9,7 @@ from gymnasium import spaces
 
 from ai4u_edu.base.errors import ActionError, BlockError, shown
 from ai4u_edu.blocks.block import Block, default_name
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Body, WorldView
 
 
@@ -53,7 +54,10 @@ class Actuator(Block):
     def space(self) -> spaces.Space[Any]:
         """Return the space of its actions: a Box of shape (n,) or a Discrete space."""
         raise BlockError(
-            f"{type(self).__name__} has no space(self): it must say what action it takes, as a Box"
+            _(
+                "{type} has no space(self): it must say what action it takes, as a Box",
+                type=type(self).__name__,
+            )
         )
 
     def slots(self) -> tuple[str, ...]:
@@ -67,7 +71,7 @@ class Actuator(Block):
             body: the agent's body.
             action: n finite numbers within :meth:`space`.
         """
-        raise BlockError(f"{type(self).__name__} has no act(self, body, action)")
+        raise BlockError(_("{type} has no act(self, body, action)", type=type(self).__name__))
 
     def on_tick(self, body: Body, view: WorldView) -> None:
         """Run after every tick of a decision, whether it acted or not.
@@ -87,7 +91,13 @@ class Actuator(Block):
         if isinstance(space, spaces.Discrete):
             start = float(space.start)
             return [start], [start + float(space.n) - 1.0]
-        raise BlockError(f"{self!r}: expected space() to be a Box or Discrete, got {space}")
+        raise BlockError(
+            _(
+                "{self}: expected space() to be a Box or Discrete, got {space}",
+                self=repr(self),
+                space=str(space),
+            )
+        )
 
     def fixed_at_setup(self) -> dict[str, object]:
         """Return the name by which an action finds it."""
@@ -114,13 +124,22 @@ class Actuator(Block):
         numbers = tuple(values.tolist()) if plain else self._numbers(values)
         if len(numbers) != len(self._limits):
             raise ActionError(
-                f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
-                f"got {len(numbers)}: {shown(values)}"
+                _(
+                    "action {action_name!r}: expected {count} numbers, got {count2}: {got}",
+                    action_name=self.action_name,
+                    count=len(self._limits),
+                    count2=len(numbers),
+                    got=shown(values),
+                )
             )
         # a sum costs less than a test of each, but that of large numbers may be infinite
         if not math.isfinite(sum(numbers)) and not all(map(math.isfinite, numbers)):
             raise ActionError(
-                f"action {self.action_name!r}: expected finite numbers, got {shown(values)}"
+                _(
+                    "action {action_name!r}: expected finite numbers, got {got}",
+                    action_name=self.action_name,
+                    got=shown(values),
+                )
             )
         low, high = self._within_all
         if numbers and low <= min(numbers) and max(numbers) <= high:
@@ -148,6 +167,10 @@ class Actuator(Block):
         except (TypeError, ValueError, OverflowError):
             pass
         raise ActionError(
-            f"action {self.action_name!r}: expected {len(self._limits)} numbers, "
-            f"got {shown(values)}"
+            _(
+                "action {action_name!r}: expected {count} numbers, got {got}",
+                action_name=self.action_name,
+                count=len(self._limits),
+                got=shown(values),
+            )
         )

@@ -4,6 +4,7 @@ from typing import Any
 
 from ai4u_edu.base.errors import ActionError, shown
 from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.locale import gettext as _
 
 
 class ChoiceActuator(Actuator):
@@ -25,7 +26,11 @@ class ChoiceActuator(Actuator):
             numbers = ()
         if len(numbers) != 1 or numbers[0] not in range(last + 1):
             raise ActionError(
-                f"action {self.action_name!r}: expected a whole number from 0 to {last}, "
-                f"got {shown(values)}"
+                _(
+                    "action {action_name!r}: expected a whole number from 0 to {last}, got {got}",
+                    action_name=self.action_name,
+                    last=last,
+                    got=shown(values),
+                )
             )
         return numbers

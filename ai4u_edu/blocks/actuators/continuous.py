@@ -8,6 +8,7 @@ from pydantic import Field
 
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.actuators.actuator import Actuator
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Body
 
 
@@ -40,7 +41,11 @@ class ContinuousActuator(Actuator):
         """Pass the numbers to the handler."""
         if self.handler is None:
             raise BlockError(
-                f"{type(self).__name__} {self.action_name!r}: nobody takes its numbers; expected "
-                "a function, as in actuator.handler = lambda body, numbers: ..."
+                _(
+                    "{type} {action_name!r}: nobody takes its numbers; expected a function, as in "
+                    "actuator.handler = lambda body, numbers: ...",
+                    type=type(self).__name__,
+                    action_name=self.action_name,
+                )
             )
         self.handler(body, action)

@@ -11,6 +11,7 @@ from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.actuators.choice import ChoiceActuator
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Body, WorldView
 
 Signed = Annotated[float, quantity("1", ge=-1, le=1)]
@@ -57,8 +58,12 @@ class DiscreteActuator(GroundMotion, ChoiceActuator):
         # not earlier: until now a script could set a handler
         if self.handler is None and (self.size or 0) > len(self.table):
             raise BlockError(
-                f"expected a row of the table for each of {self.size} choices, "
-                f"got {len(self.table)} rows; add some, or set a handler"
+                _(
+                    "expected a row of the table for each of {size} choices, got {count} rows; "
+                    "add some, or set a handler",
+                    size=str(self.size),
+                    count=len(self.table),
+                )
             )
 
     def act(self, body: Body, action: tuple[float, ...]) -> None:

@@ -11,6 +11,7 @@ from ai4u_edu.base.errors import shown
 from ai4u_edu.base.parameters import Degrees, Metres
 from ai4u_edu.blocks.actuators.actuator import Actuator
 from ai4u_edu.blocks.agent_view import AgentView
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Body, WorldView
 
 Pose = tuple[Metres, Metres, Degrees]
@@ -55,11 +56,15 @@ class RespawnActuator(Actuator):
         ]
         if wrong:
             (number, pose), *others = wrong
-            more = f", and {len(others)} more like it" if others else ""
-            raise ValueError(
-                "expected x, y, heading in degrees of each pose, as in [1, 2, 90], "
-                f"got {shown(pose)} as pose {number}{more}"
+            problem = _(
+                "expected x, y, heading in degrees of each pose, as in [1, 2, 90], got {got} as "
+                "pose {number}",
+                got=shown(pose),
+                number=number,
             )
+            if others:
+                problem = _("{problem}, and {more} more like it", problem=problem, more=len(others))
+            raise ValueError(problem)
         return poses
 
     def __post_init__(self) -> None:

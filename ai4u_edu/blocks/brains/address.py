@@ -6,6 +6,7 @@ from urllib.parse import parse_qsl, urlsplit
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.remote import RemoteBrain
+from ai4u_edu.locale import gettext as _
 
 EXAMPLE = "ai4u://127.0.0.1:8080"
 IN_FRONT = ("host", "port")
@@ -41,20 +42,41 @@ def brain_at(address: str, **defaults: Any) -> RemoteBrain:
         parts, port = urlsplit(""), None
     is_plain = parts.path in ("", "/") and not parts.fragment and parts.username is None
     if parts.scheme != "ai4u" or not parts.hostname or not is_plain:
-        raise SetupError(f"brain: expected an address such as {EXAMPLE}, got {address!r}")
+        raise SetupError(
+            _(
+                "brain: expected an address such as {example}, got {address}",
+                example=EXAMPLE,
+                address=repr(address),
+            )
+        )
     named = parse_qsl(parts.query, keep_blank_values=True)
-    for name, count in Counter(name for name, _ in named).items():
+    for name, count in Counter(name for name, _value in named).items():
         if name in IN_FRONT:
             raise SetupError(
-                f"brain: expected {name} in front of the question mark, as in {EXAMPLE}, "
-                f"got {address!r}"
+                _(
+                    "brain: expected {name} in front of the question mark, as in {example}, got "
+                    "{address}",
+                    name=name,
+                    example=EXAMPLE,
+                    address=repr(address),
+                )
             )
         if name == "enabled":
             raise SetupError(
-                f"brain: expected no enabled in an address, since whoever is named drives, "
-                f"got {address!r}"
+                _(
+                    "brain: expected no enabled in an address, since whoever is named drives, got "
+                    "{address}",
+                    address=repr(address),
+                )
             )
         if count > 1:
-            raise SetupError(f"brain: expected {name} once, got it {count} times in {address!r}")
+            raise SetupError(
+                _(
+                    "brain: expected {name} once, got it {count} times in {address}",
+                    name=name,
+                    count=count,
+                    address=repr(address),
+                )
+            )
     place: dict[str, Any] = {"host": parts.hostname, "port": 8080 if port is None else port}
     return RemoteBrain(**(defaults | place | dict(named)))

@@ -9,6 +9,7 @@ from pydantic import Field
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
 
 __all__ = ["Action", "Brain", "Command"]
 
@@ -61,7 +62,10 @@ class Brain(Block):
             percept: of the agent; a brain gets nothing else.
         """
         raise BlockError(
-            f"{type(self).__name__} has no decide(self, percept): it must return an action"
+            _(
+                "{type} has no decide(self, percept): it must return an action",
+                type=type(self).__name__,
+            )
         )
 
     @property

@@ -12,6 +12,7 @@ from ai4u_edu.blocks.brains.brain import Answer, Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 
@@ -36,8 +37,11 @@ class LocalBrain(Brain):
             return ScriptController(function=controller)
         got = shown(controller)
         if isinstance(controller, type):
-            got = f"the class {controller.__name__}; make one, as in {controller.__name__}()"
-        raise ValueError(f"expected a controller, or a function from percept to action, got {got}")
+            name = controller.__name__
+            got = _("the class {name}; make one, as in {name}()", name=name)
+        raise ValueError(
+            _("expected a controller, or a function from percept to action, got {got}", got=got)
+        )
 
     def inner_blocks(self) -> Sequence[Block]:
         """Return the controller."""

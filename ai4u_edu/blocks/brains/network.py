@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.blocks.brains import zoo
+from ai4u_edu.locale import gettext as _
 
 MAX_LOADED_NETWORK_BYTES = 64 * 2**20
 """Largest file of a network."""
@@ -87,19 +88,39 @@ def find_network(path: str, folder: Path | None = None) -> Path:
     if path.startswith(ZOO_PREFIX):
         scene = path.removeprefix(ZOO_PREFIX)
         if scene not in zoo.names():
-            raise BlockError(f"the zoo has no network for {scene!r}; {suggest(scene, zoo.names())}")
+            raise BlockError(
+                _(
+                    "the zoo has no network for {scene}; {hint}",
+                    scene=repr(scene),
+                    hint=suggest(scene, zoo.names()),
+                )
+            )
         return zoo.network_of(scene)
     if Path(path).suffix != ".onnx":
         raise BlockError(
-            f"expected a network as an .onnx file (or zoo:SCENE), got {path!r}; "
-            "make one with: ai4u-edu export MODEL --out policy.onnx"
+            _(
+                "expected a network as an .onnx file (or zoo:SCENE), got {path}; make one with: "
+                "ai4u-edu export MODEL --out policy.onnx",
+                path=repr(path),
+            )
         )
     places = [Path(path)] if folder is None else [folder / path, Path(path)]
     for place in places:
         if place.is_file():
             return place
-    told = " nor as ".join(str(place.absolute()) for place in dict.fromkeys(places))
-    raise BlockError(f"the network {path!r} is not there as {told}")
+    absolute = [str(place.absolute()) for place in dict.fromkeys(places)]
+    if len(absolute) == 1:
+        raise BlockError(
+            _("the network {path!r} is not there as {place}", path=path, place=absolute[0])
+        )
+    raise BlockError(
+        _(
+            "the network {path!r} is not there as {place} nor as {other}",
+            path=path,
+            place=absolute[0],
+            other=absolute[1],
+        )
+    )
 
 
 class Network:
@@ -138,7 +159,11 @@ class Network:
             raise
         except Exception as error:  # its errors have no common base of their own
             raise BlockError(
-                f"{path.name}: expected a network that onnxruntime can run, got: {_told(error)}"
+                _(
+                    "{name}: expected a network that onnxruntime can run, got: {told}",
+                    name=path.name,
+                    told=_told(error),
+                )
             ) from None
         self._session = session
         self._run_options = onnxruntime.RunOptions()
@@ -172,14 +197,23 @@ class Network:
             answers = self._session.run(self._names, feed, self._run_options)
         except Exception as error:  # its errors have no common base of their own
             raise BlockError(
-                f"{self.path.name}: onnxruntime can't run this network: {_told(error)}; expected "
-                "one that decides within the memory of this machine"
+                _(
+                    "{name}: onnxruntime can't run this network: {told}; expected one that "
+                    "decides within the memory of this machine",
+                    name=self.path.name,
+                    told=_told(error),
+                )
             ) from None
         shapes = [answer.shape for answer in answers]
         if shapes != self._shapes:
             raise BlockError(
-                f"{self.path.name}: expected outputs of the shapes {self._shapes}, as the file "
-                f"says, got {shapes}"
+                _(
+                    "{name}: expected outputs of the shapes {shapes}, as the file says, got "
+                    "{shapes2}",
+                    name=self.path.name,
+                    shapes=str(self._shapes),
+                    shapes2=str(shapes),
+                )
             )
         return {name: answer[0] for name, answer in zip(self._names, answers, strict=True)}
 
@@ -189,9 +223,17 @@ def _bytes_of(path: Path) -> bytes:
         with path.open("rb") as file:
             data = file.read(MAX_LOADED_NETWORK_BYTES + 1)
     except OSError as error:
-        raise BlockError(f"{path}: can't be read: {error.strerror}") from None
+        raise BlockError(
+            _("{path}: can't be read: {why}", path=str(path), why=str(error.strerror))
+        ) from None
     if len(data) > MAX_LOADED_NETWORK_BYTES:
-        raise BlockError(f"{path.name}: expected at most {MAX_LOADED_NETWORK_BYTES // 2**20} MB")
+        raise BlockError(
+            _(
+                "{name}: expected at most {mb} MB",
+                name=path.name,
+                mb=MAX_LOADED_NETWORK_BYTES // 2**20,
+            )
+        )
     return data
 
 
@@ -200,7 +242,7 @@ def _told(error: Exception) -> str:
     text = " ".join(str(error).split())
     text = re.sub(r"^\[ONNXRuntimeError\] : \d+ : \w+ : ", "", text)
     if "external data" in text.lower():  # the rest of it are paths of this machine
-        return "one whose numbers lie in another file; export it as one file"
+        return _("one whose numbers lie in another file; export it as one file")
     text = re.sub(r"/\S*onnxruntime\S* (\S+ onnxruntime::\w+(::\w+)*\([^)]*\) )?", "", text)
     text = text or type(error).__name__
     return text if len(text) <= MAX_REASON_CHARS else text[: MAX_REASON_CHARS - 1] + "…"
@@ -209,20 +251,44 @@ def _told(error: Exception) -> str:
 def _port(node: Any, path: Path) -> Port:
     if node.type not in DTYPES:
         raise BlockError(
-            f"{path.name}: {node.name!r} is a {node.type}; expected one of {', '.join(DTYPES)}"
+            _(
+                "{name}: {name2!r} is a {type}; expected one of {names}",
+                name=path.name,
+                name2=node.name,
+                type=node.type,
+                names=", ".join(DTYPES),
+            )
         )
     batch, *shape = node.shape or [None]
     if batch not in (1, None) and not isinstance(batch, str):
         raise BlockError(
-            f"{path.name}: {node.name!r} takes {batch} decisions at once; expected a first axis "
-            "of length 1, or of any"
+            _(
+                "{name}: {name2!r} takes {batch} decisions at once; expected a first axis of "
+                "length 1, or of any",
+                name=path.name,
+                name2=node.name,
+                batch=str(batch),
+            )
         )
     if not all(isinstance(length, int) for length in shape):
-        raise BlockError(f"{path.name}: {node.name!r} has an axis without a length: {node.shape}")
+        raise BlockError(
+            _(
+                "{name}: {name2!r} has an axis without a length: {shape}",
+                name=path.name,
+                name2=node.name,
+                shape=str(node.shape),
+            )
+        )
     if math.prod(shape) > MAX_PORT_NUMBERS:
         raise BlockError(
-            f"{path.name}: {node.name!r} has the shape {tuple(shape)}; expected at most "
-            f"{MAX_PORT_NUMBERS} numbers"
+            _(
+                "{name}: {name2!r} has the shape {shape}; expected at most {max_port_numbers} "
+                "numbers",
+                name=path.name,
+                name2=node.name,
+                shape=str(tuple(shape)),
+                max_port_numbers=MAX_PORT_NUMBERS,
+            )
         )
     return Port(node.name, tuple(shape), np.dtype(DTYPES[node.type]))
 
@@ -233,5 +299,11 @@ def _about(entries: Mapping[str, str], path: Path) -> dict[str, Any]:
     except (ValueError, RecursionError):
         about = None
     if not isinstance(about, dict):
-        raise BlockError(f"{path.name}: its entry {TRAINING_KEY!r} is no JSON mapping")
+        raise BlockError(
+            _(
+                "{name}: its entry {training_key} is no JSON mapping",
+                name=path.name,
+                training_key=repr(TRAINING_KEY),
+            )
+        )
     return about

@@ -21,6 +21,8 @@ from ai4u_edu.blocks.brains.links.link import (
 from ai4u_edu.blocks.brains.patience import WAIT_SLICE_S, Patience
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus, StatusTracker
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.world import WorldView
 
 OnMissing = Literal["hold", "coast", "stop"]
@@ -130,7 +132,7 @@ class RemoteBrain(Brain):
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Begin to wait for a script."""
-        self.close("the agent is set up again")
+        self.close(_("the agent is set up again"))
         self.override = None
         self._agent, self._view = agent, view
         self._actions = _RemoteActions(agent)
@@ -168,7 +170,10 @@ class RemoteBrain(Brain):
         link = self._link
         if link is None:
             raise SetupError(
-                f"{self.title()} was closed; expected agent.use_brain(...) to open it again"
+                _(
+                    "{title} was closed; expected agent.use_brain(...) to open it again",
+                    title=self.title(),
+                )
             )
         observation = self._current or self._observe(percept)
         self._patience.timeout_s = self.receive_timeout / 1000
@@ -205,7 +210,7 @@ class RemoteBrain(Brain):
         if self._link is not None:
             self._link.idle()
 
-    def close(self, reason: str = "the world has ended") -> None:
+    def close(self, reason: str = _("the world has ended")) -> None:
         """Say goodbye to the script."""
         if self._link is not None:
             self._link.close(reason)
@@ -214,8 +219,9 @@ class RemoteBrain(Brain):
 
     def title(self) -> str:
         """Return the name for people, with the script's address."""
-        where = "a script" if self._own_link else f"{self.host}:{self.port}"
-        return f"{type(self).__name__}({where})"
+        if self._own_link:
+            return _("{type}(a script)", type=type(self).__name__)
+        return f"{type(self).__name__}({self.host}:{self.port})"
 
     def status(self) -> RemoteStatus:
         """Return the status for the page."""
@@ -338,18 +344,24 @@ class RemoteBrain(Brain):
         """Say why an action has no effect, whatever it is."""
         if not action:
             return ""
+        names = ", ".join(map(shown, action))
         if observation.done:
-            reason = "the episode is over; expected a reset"
-        elif observation.paused:
-            reason = "the agent is paused; expected a command to resume"
-        else:
-            reason = "the agent was stopped; expected a reset"
-        return f"action {', '.join(map(shown, action))} had no effect: {reason}"
+            return _(
+                "action {names} had no effect: the episode is over; expected a reset", names=names
+            )
+        if observation.paused:
+            return _(
+                "action {names} had no effect: the agent is paused; expected a command to resume",
+                names=names,
+            )
+        return _(
+            "action {names} had no effect: the agent was stopped; expected a reset", names=names
+        )
 
     def _warn(self, *sentences: str) -> None:
         """Report what had no effect in one reply; empty sentences report nothing."""
         if any(sentences):
-            warning = "; ".join(filter(None, sentences))
+            warning = join(list(filter(None, sentences)), "; ")
             self._status.warn(warning, self._patience.now())
             if self._link is not None:
                 self._link.note(warning)
@@ -388,9 +400,14 @@ class RemoteBrain(Brain):
         if not self._can_act():
             return Command.WAIT
         self._status.is_late = True
-        self._status.reason = f"no action for {self._patience.silence_s:.1f} s"
+        silence_s = self._patience.silence_s
         if self._patience.is_given_up:
-            self._status.reason += ": given up, the world goes on until it answers"
+            self._status.reason = _(
+                "no action for {seconds:.1f} s: given up, the world goes on until it answers",
+                seconds=silence_s,
+            )
+        else:
+            self._status.reason = _("no action for {seconds:.1f} s", seconds=silence_s)
         return self._substitute()
 
     def _substitute(self) -> Action:
@@ -447,8 +464,12 @@ class _RemoteActions:
             actuator = self._actuators.get(name)
             if actuator is None:
                 raise ActionError(
-                    f"agent {self._agent.id!r} has no actuator {shown(name)}; "
-                    f"{suggest(str(name), self._actuators)}"
+                    _(
+                        "agent {id!r} has no actuator {got}; {hint}",
+                        id=self._agent.id,
+                        got=shown(name),
+                        hint=suggest(str(name), self._actuators),
+                    )
                 )
             before = actuator.clipped
             accepted[name] = actuator.accept(numbers)

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ai4u_edu.blocks.brains.links.link import Link, LinkState
+from ai4u_edu.locale import gettext as _
 
-OVERRIDDEN = "a person drives; its actions are ignored"
+OVERRIDDEN = _("a person drives; its actions are ignored")
 WARNING_INTERVAL_S = 5.0
 """Shortest time for which a warning stands before another sentence replaces it: a script repeats
 its mistakes with each decision, with other numbers in the sentence."""

@@ -6,6 +6,7 @@ from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -56,4 +57,6 @@ class BodyInAreaRewardFunc(RewardFunc):
 def check_area(name: str, view: WorldView) -> None:
     """Raise a NameNotFoundError with a suggestion unless an area has that name."""
     if name not in view.areas:
-        raise NameNotFoundError(f"no area is named {name!r}; {suggest(name, view.areas)}")
+        raise NameNotFoundError(
+            _("no area is named {name!r}; {hint}", name=name, hint=suggest(name, view.areas))
+        )

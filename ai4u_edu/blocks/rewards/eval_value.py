@@ -11,6 +11,7 @@ from ai4u_edu.base.errors import BlockError, ReadingError, suggest
 from ai4u_edu.base.parameters import Number, WholeNumber
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 Look = Callable[[BodyView, WorldView], float]
@@ -137,8 +138,13 @@ class EvalFloatValue(EvalValue):
 def _check_order(block: EvalValue, low: float, high: float) -> None:
     if low > high:
         raise BlockError(
-            f"{type(block).__name__} {block.name!r}: expected min_value <= max_value, "
-            f"got {low:g}..{high:g}"
+            _(
+                "{type} {name!r}: expected min_value <= max_value, got {low:g}..{high:g}",
+                type=type(block).__name__,
+                name=block.name,
+                low=low,
+                high=high,
+            )
         )
 
 
@@ -156,39 +162,59 @@ def _find_property(name: str, target: str, agent: AgentView, view: WorldView) ->
         BlockError: there is no such property.
     """
     if target:
-        _ = view[target]
+        _place = view[target]
     if name in BODY_PROPERTIES:
         look = BODY_PROPERTIES[name]
         return lambda body, view: look(view[target] if target else body)
     if target:
-        raise BlockError(f"property: a body has no {name!r}; {suggest(name, BODY_PROPERTIES)}")
+        raise BlockError(
+            _(
+                "property: a body has no {name!r}; {hint}",
+                name=name,
+                hint=suggest(name, BODY_PROPERTIES),
+            )
+        )
     if name in AGENT_PROPERTIES:
         look_at = AGENT_PROPERTIES[name]
-        return lambda *_: look_at(agent)
+        return lambda *_seen: look_at(agent)
     keys = [sensor.perception_key for sensor in agent.sensors if sensor.is_active]
     match = re.fullmatch(r"(.+)\[(\d+)\]", name)
     key, index = (match[1], int(match[2])) if match else (name, None)
     if key not in keys:
         raise BlockError(
-            f"property: no body, agent or sensor has a {key!r}; "
-            f"{suggest(key, [*BODY_PROPERTIES, *AGENT_PROPERTIES, *keys])}"
+            _(
+                "property: no body, agent or sensor has a {key!r}; {hint}",
+                key=key,
+                hint=suggest(key, [*BODY_PROPERTIES, *AGENT_PROPERTIES, *keys]),
+            )
         )
-    return lambda *_: _number(agent.percept[key], key, index)
+    return lambda *_seen: _number(agent.percept[key], key, index)
 
 
 def _number(reading: Any, key: str, index: int | None) -> float:
     if isinstance(reading, str | tuple):
-        raise ReadingError(f"property: expected a reading made of numbers, {key!r} is text")
+        raise ReadingError(
+            _("property: expected a reading made of numbers, {key!r} is text", key=key)
+        )
     numbers = np.ravel(reading)
     if index is None:
         if numbers.size != 1:
             raise ReadingError(
-                f"property: expected one number, {key!r} has {numbers.size}; "
-                f"choose one, as in '{key}[0]'"
+                _(
+                    "property: expected one number, {key!r} has {size}; choose one, as in "
+                    "'{key}[0]'",
+                    key=key,
+                    size=numbers.size,
+                )
             )
         index = 0
     if index >= numbers.size:
         raise ReadingError(
-            f"property: expected an index up to {numbers.size - 1}, got '{key}[{index}]'"
+            _(
+                "property: expected an index up to {size}, got '{key}[{index}]'",
+                size=numbers.size - 1,
+                key=key,
+                index=index,
+            )
         )
     return float(numbers[index])

@@ -9,6 +9,7 @@ from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.base.parameters import Name, Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 from ai4u_edu.world.ink import CELL_M, TILE_CELLS, TileKey
 
@@ -40,7 +41,11 @@ class FigureReward(RewardFunc):
         tags = {tag: None for area in view.areas.values() for tag in area.tags}
         if self.group not in tags:
             raise NameNotFoundError(
-                f"no area carries the tag {self.group!r}; {suggest(self.group, tags)}"
+                _(
+                    "no area carries the tag {group}; {hint}",
+                    group=repr(self.group),
+                    hint=suggest(self.group, tags),
+                )
             )
         self._built_for = -1
 

@@ -10,6 +10,7 @@ from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.homeostasis import HomeostaticVariable
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -43,8 +44,13 @@ class HomeostaticReward(RewardFunc):
         for index, name in enumerate(names):
             if name in names[:index]:
                 raise BlockError(
-                    f"{type(self).__name__} {self.name!r}: expected variables of different names, "
-                    f"got {name!r} twice"
+                    _(
+                        "{type} {name!r}: expected variables of different names, got {name2!r} "
+                        "twice",
+                        type=type(self).__name__,
+                        name=self.name,
+                        name2=name,
+                    )
                 )
 
     def variable(self, name: str) -> HomeostaticVariable:
@@ -55,7 +61,9 @@ class HomeostaticReward(RewardFunc):
         """
         known = {variable.name: variable for variable in self.variables}
         if name not in known:
-            raise NameNotFoundError(f"no variable is named {name!r}; {suggest(name, known)}")
+            raise NameNotFoundError(
+                _("no variable is named {name!r}; {hint}", name=name, hint=suggest(name, known))
+            )
         return known[name]
 
     def discomfort(self) -> float:
@@ -102,5 +110,11 @@ def find_homeostatic_reward(agent: AgentView, name: str) -> HomeostaticReward:
         if isinstance(reward, HomeostaticReward) and reward.is_active
     }
     if name not in keepers:
-        raise BlockError(f"no HomeostaticReward is called {name!r}; {suggest(name, keepers)}")
+        raise BlockError(
+            _(
+                "no HomeostaticReward is called {name!r}; {hint}",
+                name=name,
+                hint=suggest(name, keepers),
+            )
+        )
     return keepers[name]

@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block, default_name, levels_up
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -67,7 +68,10 @@ class RewardFunc(Block):
             view: a read-only view of the world.
         """
         raise BlockError(
-            f"{type(self).__name__} has no on_update(self, body, view): it must return a number"
+            _(
+                "{type} has no on_update(self, body, view): it must return a number",
+                type=type(self).__name__,
+            )
         )
 
     def holds(self, paid: float, body: BodyView, view: WorldView) -> bool:

@@ -11,6 +11,7 @@ from ai4u_edu.base.errors import BlockError, ReadingError
 from ai4u_edu.base.parameters import Number
 from ai4u_edu.blocks.agent_view import AgentInput, AgentView
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -44,8 +45,12 @@ class AgentArraySensor(Sensor):
         super().__post_init__()
         if self.range_max <= self.range_min:
             raise BlockError(
-                f"{self._title()}: expected range_max above range_min, "
-                f"got {self.range_min:g}..{self.range_max:g}"
+                _(
+                    "{title}: expected range_max above range_min, got {range_min:g}..{range_max:g}",
+                    title=self._title(),
+                    range_min=self.range_min,
+                    range_max=self.range_max,
+                )
             )
         self.numbers = np.zeros(self.size)
         """The current values."""
@@ -67,7 +72,12 @@ class AgentArraySensor(Sensor):
         """
         if not 0 <= index < self.size:
             raise ReadingError(
-                f"{self._title()}: expected an index from 0 to {self.size - 1}, got {index}"
+                _(
+                    "{title}: expected an index from 0 to {size}, got {index}",
+                    title=self._title(),
+                    size=self.size - 1,
+                    index=index,
+                )
             )
         self._check(value)
         self.numbers[index] = value
@@ -80,7 +90,14 @@ class AgentArraySensor(Sensor):
             ReadingError: their count is not ``size``, or one is out of range.
         """
         if len(values) != self.size:
-            raise ReadingError(f"{self._title()}: expected {self.size} values, got {len(values)}")
+            raise ReadingError(
+                _(
+                    "{title}: expected {size} values, got {count}",
+                    title=self._title(),
+                    size=self.size,
+                    count=len(values),
+                )
+            )
         for value in values:
             self._check(value)
         self.numbers[:] = values
@@ -123,8 +140,13 @@ class AgentArraySensor(Sensor):
         # written this way round, nan is refused as well
         if not self.range_min <= value <= self.range_max:
             raise ReadingError(
-                f"{self._title()}: expected values from {self.range_min:g} to "
-                f"{self.range_max:g}, got {value!r}"
+                _(
+                    "{title}: expected values from {range_min:g} to {range_max:g}, got {value}",
+                    title=self._title(),
+                    range_min=self.range_min,
+                    range_max=self.range_max,
+                    value=repr(value),
+                )
             )
 
     def _title(self) -> str:

@@ -13,6 +13,7 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.ray_sensor import Code
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 
@@ -63,8 +64,15 @@ class AreaOrientationSensor(Sensor):
         for group, code in self.group_code.items():
             if code > self.max_code_value:
                 raise BlockError(
-                    f"{type(self).__name__} {self.perception_key!r}: group_code: expected codes "
-                    f"up to max_code_value ({self.max_code_value}), got {code} for {group!r}"
+                    _(
+                        "{type} {perception_key!r}: group_code: expected codes up to "
+                        "max_code_value ({max_code_value}), got {code} for {group}",
+                        type=type(self).__name__,
+                        perception_key=self.perception_key,
+                        max_code_value=self.max_code_value,
+                        code=code,
+                        group=repr(group),
+                    )
                 )
 
     def space(self) -> Box:
@@ -84,10 +92,14 @@ class AreaOrientationSensor(Sensor):
         """Look up the area, the reference and the groups."""
         if self.area and self.area not in view.areas:
             raise NameNotFoundError(
-                f"no area is named {self.area!r}; {suggest(self.area, view.areas)}"
+                _(
+                    "no area is named {area}; {hint}",
+                    area=repr(self.area),
+                    hint=suggest(self.area, view.areas),
+                )
             )
         if self.reference:
-            _ = view[self.reference]
+            _place = view[self.reference]
         view.check_group(self.target_group)
         check_groups(self, "group_code", view)
 

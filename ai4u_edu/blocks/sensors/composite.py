@@ -14,6 +14,7 @@ from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.percept import DTYPES
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 ROUNDING_TOLERANCE = 1e-5
@@ -52,9 +53,16 @@ class FloatArrayCompositeSensor(Sensor):
         self._children = [child for child in self.sensors if child.is_active]
         if self.max_value <= self.min_value or self.range_max <= self.range_min:
             raise BlockError(
-                f"{type(self).__name__} {self.perception_key!r}: expected a max above its min, "
-                f"got range {self.range_min}..{self.range_max} "
-                f"and values {self.min_value}..{self.max_value}"
+                _(
+                    "{type} {perception_key!r}: expected a max above its min, got range "
+                    "{range_min}..{range_max} and values {min_value}..{max_value}",
+                    type=type(self).__name__,
+                    perception_key=self.perception_key,
+                    range_min=self.range_min,
+                    range_max=self.range_max,
+                    min_value=self.min_value,
+                    max_value=self.max_value,
+                )
             )
 
     def inner_blocks(self) -> Sequence[Sensor]:
@@ -70,8 +78,11 @@ class FloatArrayCompositeSensor(Sensor):
             kind = child.reading_kind()
             if kind not in DTYPES:
                 raise BlockError(
-                    f"{type(child).__name__} {child.perception_key!r} reads text; a composite "
-                    "takes numbers only"
+                    _(
+                        "{type} {perception_key!r} reads text; a composite takes numbers only",
+                        type=type(child).__name__,
+                        perception_key=child.perception_key,
+                    )
                 )
             place = np.zeros(child.observation_space().shape or (), DTYPES[kind])
             child.attach(place, partial(view.random, self._name_of(child)))
@@ -122,10 +133,19 @@ class FloatArrayCompositeSensor(Sensor):
             beyond = part[~((part >= low - slack) & (part <= high + slack))]
             if beyond.size:
                 raise ReadingError(
-                    f"{type(self).__name__} {self.perception_key!r}: expected numbers from "
-                    f"{low:g} to {high:g} (range_min and range_max), got {float(beyond[0]):g} from "
-                    f"its {type(child).__name__} {child.perception_key!r}; widen the range, or set "
-                    "normalized=True on that sensor"
+                    _(
+                        "{type} {perception_key!r}: expected numbers from {low:g} to {high:g} "
+                        "(range_min and range_max), got {beyond:g} from its {type2} "
+                        "{perception_key2!r}; widen the range, or set normalized=True on that "
+                        "sensor",
+                        type=type(self).__name__,
+                        perception_key=self.perception_key,
+                        low=low,
+                        high=high,
+                        beyond=float(beyond[0]),
+                        type2=type(child).__name__,
+                        perception_key2=child.perception_key,
+                    )
                 )
         np.clip(out, low, high, out=out)
 

@@ -12,6 +12,7 @@ from ai4u_edu.base.parameters import Metres, Name, NonNegativeMetres
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.pictures import SpotPicture
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import AreaDescription, BodyView, WorldView
 from ai4u_edu.world.pictures import OPAQUE, are_dark
 
@@ -51,7 +52,11 @@ class LineSensor(Sensor):
         tags = {tag: None for area in view.areas.values() for tag in area.tags}
         if self.group not in tags and self.group != LineSensor.group:  # a misspelt one
             raise NameNotFoundError(
-                f"no area carries the tag {self.group!r}; {suggest(self.group, tags)}"
+                _(
+                    "no area carries the tag {group}; {hint}",
+                    group=repr(self.group),
+                    hint=suggest(self.group, tags),
+                )
             )
         left = np.linspace(0.5, -0.5, self.points) if self.points > 1 else np.zeros(1)
         self._left = left * self.width

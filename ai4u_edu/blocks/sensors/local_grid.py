@@ -15,6 +15,7 @@ from ai4u_edu.blocks.groups import check_groups
 from ai4u_edu.blocks.sensors.footprint import Disc, Edge, footprint
 from ai4u_edu.blocks.sensors.pictures import ChannelLegend
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor, check_memory
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyDescription, BodyView, RegionDescription, WorldView
 
 _VOID = "void"
@@ -319,8 +320,13 @@ class LocalGridSensor(Sensor):
         for index, channel in enumerate(self.channels):
             if channel in self.channels[:index]:
                 raise BlockError(
-                    f"{type(self).__name__} {self.perception_key!r}: channels: expected each "
-                    f"group once, got {channel!r} twice"
+                    _(
+                        "{type} {perception_key!r}: channels: expected each group once, got "
+                        "{channel} twice",
+                        type=type(self).__name__,
+                        perception_key=self.perception_key,
+                        channel=repr(channel),
+                    )
                 )
 
     def space(self) -> Box:

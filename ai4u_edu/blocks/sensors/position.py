@@ -8,6 +8,7 @@ from gymnasium.spaces import Box
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 MARGIN_M = 5.0
@@ -55,8 +56,10 @@ class PositionSensor(Sensor):
         """Look up the target and measure the world."""
         if self.frame == "local" and not self.target:
             raise BlockError(
-                'frame="local" is the way to a target, seen from the agent: expected a target, got '
-                'none; name one, or take frame="global" for the place of the agent itself'
+                _(
+                    'frame="local" is the way to a target, seen from the agent: expected a target, '
+                    'got none; name one, or take frame="global" for the place of the agent itself'
+                )
             )
         if self.target:
             view.check_target(self.target)

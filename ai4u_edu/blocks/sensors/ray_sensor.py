@@ -10,6 +10,7 @@ from pydantic import Field
 from ai4u_edu.base.errors import BlockError
 from ai4u_edu.base.parameters import Bits, Degrees, Metres, Name, PositiveMetres, quantity
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Cast
 
 Code = Annotated[int, Field(ge=0, le=255)]
@@ -62,8 +63,12 @@ class RaySensor(Sensor):
         super().__post_init__()
         if not (self.return_code or self.return_distance):
             raise BlockError(
-                f"{type(self).__name__} {self.perception_key!r}: expected return_code or "
-                "return_distance, got neither"
+                _(
+                    "{type} {perception_key!r}: expected return_code or return_distance, got "
+                    "neither",
+                    type=type(self).__name__,
+                    perception_key=self.perception_key,
+                )
             )
 
     def code_of(self, tags: Sequence[str]) -> float:

@@ -17,6 +17,7 @@ from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.block import Block, default_name
 from ai4u_edu.blocks.percept import DTYPES, TEXTS
 from ai4u_edu.blocks.sensors.pictures import Legend, SpotPicture
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 Array = npt.NDArray[Any]
@@ -127,7 +128,10 @@ class Sensor(Block):
     def space(self) -> spaces.Space[Any]:
         """Return the space of one raw reading, in the sensor's unit."""
         raise BlockError(
-            f"{type(self).__name__} has no space(self): it must say what it can read, as a Box"
+            _(
+                "{type} has no space(self): it must say what it can read, as a Box",
+                type=type(self).__name__,
+            )
         )
 
     def read(self, body: BodyView, view: WorldView) -> Any:
@@ -138,7 +142,10 @@ class Sensor(Block):
             view: read access to the world.
         """
         raise BlockError(
-            f"{type(self).__name__} has no read(self, body, view): it must return its reading"
+            _(
+                "{type} has no read(self, body, view): it must return its reading",
+                type=type(self).__name__,
+            )
         )
 
     def write(self, out: Array, body: BodyView, view: WorldView) -> None:
@@ -189,14 +196,21 @@ class Sensor(Block):
         space = self.space()
         if not _can_be_read(space):
             raise BlockError(
-                "expected space() to return a Box, a Discrete or a Text (for texts a Tuple or "
-                f"Sequence of Text), got {space!r}; for one number from 0 to 1 that is "
-                "Box(0.0, 1.0, (1,))"
+                _(
+                    "expected space() to return a Box, a Discrete or a Text (for texts a Tuple or "
+                    "Sequence of Text), got {space}; for one number from 0 to 1 that is Box(0.0, "
+                    "1.0, (1,))",
+                    space=repr(space),
+                )
             )
         if self.kind:
             if self.kind not in KINDS:
                 raise BlockError(
-                    f"no type of reading is called {self.kind!r}; {suggest(self.kind, KINDS)}"
+                    _(
+                        "no type of reading is called {kind}; {hint}",
+                        kind=repr(self.kind),
+                        hint=suggest(self.kind, KINDS),
+                    )
                 )
             return self.kind
         if isinstance(space, spaces.Box) and self.normalized:
@@ -222,16 +236,24 @@ class Sensor(Block):
     def _check_attributes(self, kind: str) -> None:
         """Raise a BlockError if an attribute can't take effect on readings of a type."""
         if kind in TEXTS:
-            self._expect_none("texts are no numbers", *NEUTRAL)
+            self._expect_none(_("texts are no numbers"), *NEUTRAL)
         if not self.stackable:
-            self._expect_none("its readings don't stack", "stacked_observations")
+            self._expect_none(_("its readings don't stack"), "stacked_observations")
         if not isinstance(self.space(), spaces.Box):
-            self._expect_none("choices can't be a little wrong; there is dropout", "noise")
+            self._expect_none(_("choices can't be a little wrong; there is dropout"), "noise")
 
     def _expect_none(self, reason: str, *names: str) -> None:
         for name in names:
             if (value := getattr(self, name)) != NEUTRAL[name]:
-                raise BlockError(f"expected {name} {NEUTRAL[name]} ({reason}), got {value}")
+                raise BlockError(
+                    _(
+                        "expected {name} {neutral} ({reason}), got {value}",
+                        name=name,
+                        neutral=NEUTRAL[name],
+                        reason=reason,
+                        value=value,
+                    )
+                )
 
     def observation_space(self) -> spaces.Space[Any]:
         """Return the space of the reading in the percept: normalised and stacked.
@@ -375,13 +397,16 @@ class Sensor(Block):
             # numpy would make nan of None
             array = np.asarray("" if reading is None else reading, self._raw.dtype)
         except (TypeError, ValueError):
-            self._refuse(f"numbers of shape {shape}", repr(reading))
+            self._refuse(_("numbers of shape {shape}", shape=str(shape)), repr(reading))
         if array.shape != shape and array.size == self._raw.size:
             array = array.reshape(shape)  # a plain number for (1,), a list for (m, n)
         if array.shape != shape:
-            self._refuse(f"shape {shape} as its space() says", f"shape {array.shape}")
+            self._refuse(
+                _("shape {shape} as its space() says", shape=str(shape)),
+                _("shape {shape}", shape=str(array.shape)),
+            )
         if not math.isfinite(array.sum()):
-            self._refuse("finite numbers", str(array.tolist()))
+            self._refuse(_("finite numbers"), str(array.tolist()))
         return array
 
     def _check_range(self) -> None:
@@ -390,13 +415,23 @@ class Sensor(Block):
             slack = 1e-5 * (1 + np.abs(self._out))
             if (self._out < space.low - slack).any() or (self._out > space.high + slack).any():
                 self._refuse(
-                    f"numbers from {space.low.min():g} to {space.high.max():g} as its space() says",
+                    _(
+                        "numbers from {low:g} to {high:g} as its space() says",
+                        low=float(space.low.min()),
+                        high=float(space.high.max()),
+                    ),
                     str(self._out.tolist()),
                 )
 
     def _refuse(self, expected: str, got: str) -> None:
         raise ReadingError(
-            f"{type(self).__name__} {self.perception_key!r}: expected {expected}, got {got}"
+            _(
+                "{type} {perception_key!r}: expected {expected}, got {got}",
+                type=type(self).__name__,
+                perception_key=self.perception_key,
+                expected=expected,
+                got=got,
+            )
         )
 
 
@@ -432,7 +467,14 @@ def check_memory(sensor: Sensor, shape: tuple[int, ...]) -> None:
     size, kept = math.prod(shape), sensor.stacked_observations + sensor.delay
     if size * kept > _MAX_KEPT_NUMBERS:
         raise BlockError(
-            f"{type(sensor).__name__} {sensor.perception_key!r}: expected at most "
-            f"{_MAX_KEPT_NUMBERS} numbers in the readings that it keeps, got {kept} of {size}; "
-            "choose a lower resolution, or less of stacked_observations and delay"
+            _(
+                "{type} {perception_key!r}: expected at most {max_kept_numbers} numbers in the "
+                "readings that it keeps, got {kept} of {size}; choose a lower resolution, or less "
+                "of stacked_observations and delay",
+                type=type(sensor).__name__,
+                perception_key=sensor.perception_key,
+                max_kept_numbers=_MAX_KEPT_NUMBERS,
+                kept=kept,
+                size=size,
+            )
         )

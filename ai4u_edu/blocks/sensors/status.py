@@ -10,6 +10,7 @@ from ai4u_edu.base.errors import BlockError, suggest
 from ai4u_edu.base.parameters import MAX_COUNT, quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.sensors.sensor import Array, Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, WorldView
 
 LARGEST = 2**31 - 1
@@ -170,16 +171,24 @@ class ActionSensor(Sensor):
         actuators = {actuator.action_name: actuator for actuator in agent.actuators}
         if self.action_name not in actuators:
             raise BlockError(
-                f"no actuator is called {self.action_name!r}; "
-                f"{suggest(self.action_name, actuators)}"
+                _(
+                    "no actuator is called {action_name!r}; {hint}",
+                    action_name=self.action_name,
+                    hint=suggest(self.action_name, actuators),
+                )
             )
         self._agent, self._slots = agent, actuators[self.action_name].slots()
         low, high = actuators[self.action_name].limits()
         if self.action_size not in (None, len(low)):
             raise BlockError(
-                f"action_size: expected {len(low)}, since an action of {self.action_name!r} has "
-                f"{len(low)} numbers, got {self.action_size}; leave it out, and for the last "
-                f"{self.action_size} actions set stacked_observations={self.action_size}"
+                _(
+                    "action_size: expected {count}, since an action of {action_name!r} has "
+                    "{count} numbers, got {action_size}; leave it out, and for the last "
+                    "{action_size} actions set stacked_observations={action_size}",
+                    count=len(low),
+                    action_name=self.action_name,
+                    action_size=self.action_size,
+                )
             )
         self._low, self._high = np.array(low, np.float32), np.array(high, np.float32)
 

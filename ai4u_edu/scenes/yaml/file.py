@@ -11,8 +11,10 @@ from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap, CommentedSeq
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
-from ai4u_edu.base.errors import SceneError
+from ai4u_edu.base.errors import SceneError, text_of
 from ai4u_edu.base.parameters import DataPath
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.scenes.yaml.messages import shown
 from ai4u_edu.scenes.yaml.tree import HAS_LIBYAML, NotYamlError, read_tree
 from ai4u_edu.world.pictures import MAX_PICTURE_BYTES, MAX_PICTURE_CHARS, picture_data
@@ -22,7 +24,7 @@ MAX_SCENE_CHARS = 300_000 if HAS_LIBYAML else 50_000
 60,000. The data of pictures don't count, which are read as fast as copied."""
 MAX_SCENE_BYTES = 4 * MAX_SCENE_CHARS + MAX_PICTURE_CHARS
 """Size of a scene file with pictures; no character takes more bytes."""
-EXPECTED = "lines such as name: ..., bodies: ..., agents: ..."
+EXPECTED = _("lines such as name: ..., bodies: ..., agents: ...")
 """The first keys of a scene file, for messages."""
 MAX_LINE_CHARS = 10_000_000
 """Line width at which ruamel never folds a text."""
@@ -49,16 +51,29 @@ class YamlFile:
     def __init__(self, text: str, name: str, expected: str = EXPECTED) -> None:
         self.name = name
         if (count := count_chars(text)) > MAX_SCENE_CHARS:
-            raise SceneError(f"{name}: expected at most {MAX_SCENE_CHARS} characters, got {count}")
+            raise SceneError(
+                _(
+                    "{name}: expected at most {max_scene_chars} characters, got {count}",
+                    name=name,
+                    max_scene_chars=MAX_SCENE_CHARS,
+                    count=count,
+                )
+            )
         try:
             self._tree = read_tree(text)
         except NotYamlError as problem:
-            line = f", line {problem.line}" if problem.line else ""
-            column = f", column {problem.column}" if problem.column else ""
             there = shown(text, problem.line, problem.column)
-            raise SceneError(f"{name}{line}{column}: {problem}{there}") from None
+            told = join([_place(name, problem), text_of(problem)], ": ")
+            raise SceneError(join([told, there], "")) from None
         if not isinstance(self._tree.data, dict):
-            raise SceneError(f"{name}: expected {expected}, got {_kind(self._tree.data, text)}")
+            raise SceneError(
+                _(
+                    "{name}: expected {expected}, got {kind}",
+                    name=name,
+                    expected=expected,
+                    kind=_kind(self._tree.data, text),
+                )
+            )
         self.data: dict[str, Any] = self._tree.data
 
     def line(self, path: DataPath) -> int:
@@ -113,27 +128,61 @@ def with_pictures(text: str, name: str, folder: Path | None) -> str:
             with (folder / wanted).open("rb") as opened:
                 data = picture_data(opened.read(MAX_PICTURE_BYTES + 1))
         except OSError as error:
-            why = f"the picture {wanted!r} can't be read: {error.strerror}"
-            raise SceneError(f"{name}, line {line}: {why}; put it beside the file") from None
+            raise SceneError(
+                _(
+                    "{name}, line {line}: the picture {picture!r} can't be read: {why}; put it "
+                    "beside the file",
+                    name=name,
+                    line=line,
+                    picture=wanted,
+                    why=str(error.strerror),
+                )
+            ) from None
         except ValueError as error:
-            raise SceneError(f"{name}, line {line}: {wanted}: {error}") from None
+            raise SceneError(
+                _(
+                    "{name}, line {line}: {wanted}: {error}",
+                    name=name,
+                    line=line,
+                    wanted=wanted,
+                    error=text_of(error),
+                )
+            ) from None
         before, key, value = lines[line - 1].partition("picture:")
         if wanted not in value:
-            raise SceneError(f"{name}, line {line}: expected the file's name on this line")
+            raise SceneError(
+                _(
+                    "{name}, line {line}: expected the file's name on this line",
+                    name=name,
+                    line=line,
+                )
+            )
         lines[line - 1] = before + key + value.replace(wanted, data, 1)
     return "\n".join(lines)
+
+
+def _place(name: str, problem: NotYamlError) -> str:
+    """Return the file's name, with line and column where they are known."""
+    if problem.line and problem.column:
+        return _(
+            "{name}, line {line}, column {column}",
+            name=name,
+            line=problem.line,
+            column=problem.column,
+        )
+    return _("{name}, line {line}", name=name, line=problem.line) if problem.line else name
 
 
 def _kind(data: Any, text: str) -> str:
     """Describe the content of a file that holds no mapping."""
     if data is None:
-        return "an empty file" if not text.strip() else "a file without any"
+        return _("an empty file") if not text.strip() else _("a file without any")
     if isinstance(data, list):
-        return "a list (a line that begins with -)"
+        return _("a list (a line that begins with -)")
     if isinstance(data, str):
         beginning = data if len(data) <= 40 else data[:37] + "..."
-        return f"the text {beginning!r}; a space has to follow each colon"
-    return f"the value {data!r}"
+        return _("the text {text!r}; a space has to follow each colon", text=beginning)
+    return _("the value {value}", value=repr(data))
 
 
 def write_yaml(data: dict[str, Any] | list[Any]) -> str:

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 import yaml
 
+from ai4u_edu.locale import gettext as _
+
 MAX_SHOWN_CHARS = 76
 """Characters of a line in a message."""
 
@@ -37,14 +39,17 @@ def fault_of(error: yaml.YAMLError | ValueError, text: str) -> Fault:
         text: the parsed text.
     """
     if isinstance(error, UnicodeEncodeError):
-        return Fault(*_at(text, error.start), "expected text, got half of a character")
+        return Fault(*_at(text, error.start), _("expected text, got half of a character"))
     if isinstance(error, yaml.reader.ReaderError):
         code: Any = error.character
         number = code if isinstance(code, int) else ord(code)
-        words = f"expected text, got the control character 0x{number:02x}; is this a text file?"
+        words = _(
+            "expected text, got the control character 0x{number:02x}; is this a text file?",
+            number=number,
+        )
         return Fault(*_at(text, error.position), words)
     if not isinstance(error, yaml.MarkedYAMLError):
-        return Fault(0, 0, f"not YAML: {error}")
+        return Fault(0, 0, _("not YAML: {why}", why=str(error)))
     mark, begun = error.problem_mark, error.context_mark
     there = _Place(mark.line, mark.column) if mark else None
     start = _Place(begun.line, begun.column) if begun else None
@@ -70,24 +75,29 @@ def _explained(error: yaml.MarkedYAMLError, here: _Place, start: _Place, lines: 
     char = _char(lines, here)
     if "quoted scalar" in context and "end of" in problem:
         quote = _char(lines, start)
-        return _fault(start, f"this {quote} is never closed; expected another {quote} at the end")
+        return _fault(
+            start,
+            _("this {quote} is never closed; expected another {quote} at the end", quote=quote),
+        )
     if "escape character" in problem:
-        words = r"in double quotes a \ begins a special character; write \\, or use single quotes"
+        words = _(
+            "in double quotes a \\ begins a special character; write \\\\, or use single quotes"
+        )
         return _fault(start, words)
     if "flow sequence" in context or "flow mapping" in context:
         return _in_brackets(here, start, lines)
     if "start any token" in problem or char == "\t":
         if char == "\t":
-            return _fault(here, "a tab stands here; expected spaces to indent with")
-        return _fault(here, f"a value can't begin with {char}; put it in quotes")
+            return _fault(here, _("a tab stands here; expected spaces to indent with"))
+        return _fault(here, _("a value can't begin with {char}; put it in quotes", char=char))
     if "expected ':'" in problem:
-        words = "no colon follows; expected 'name: value', with a space after the colon"
+        words = _("no colon follows; expected 'name: value', with a space after the colon")
         return _fault(start, words)
     if "mapping values" in problem:
         return _one_colon_too_many(here, lines)
     if "anchor" in context or "alias" in context:
         sign = _char(lines, start)
-        return _fault(start, f"a value can't begin with {sign}; put it in quotes")
+        return _fault(start, _("a value can't begin with {char}; put it in quotes", char=sign))
     if "block mapping" in context or "block collection" in context:
         return _misaligned(here, start, lines, is_list="collection" in context)
     if "node content" in problem or "block node" in context:
@@ -95,11 +105,13 @@ def _explained(error: yaml.MarkedYAMLError, here: _Place, start: _Place, lines: 
             opened = _last_opened(lines)
             if opened is not None:
                 return _in_brackets(here, opened, lines)
-            return _fault(here, "the file ends where a value was expected")
-        return _fault(here, f"{char} stands here, and nothing was opened that it closes")
+            return _fault(here, _("the file ends where a value was expected"))
+        return _fault(
+            here, _("{char} stands here, and nothing was opened that it closes", char=char)
+        )
     if "block scalar" in context:
-        return _fault(here, "the text after | or > begins on the next line")
-    return _fault(here, f"not YAML: {problem or context}")
+        return _fault(here, _("the text after | or > begins on the next line"))
+    return _fault(here, _("not YAML: {why}", why=problem or context))
 
 
 def _last_opened(lines: list[str]) -> _Place | None:
@@ -118,43 +130,57 @@ def _in_brackets(here: _Place, start: _Place, lines: list[str]) -> Fault:
     opening = _char(lines, start)
     closing = {"[": "]", "{": "}"}.get(opening, "]")
     if here.line != start.line or not _char(lines, here):
-        words = f"this {opening} is never closed; expected {closing} at the end, commas between"
+        words = _(
+            "this {opening} is never closed; expected {closing} at the end, commas between",
+            opening=opening,
+            closing=closing,
+        )
         return _fault(start, words)
-    return _fault(here, f"expected a comma or {closing} before this")
+    return _fault(here, _("expected a comma or {closing} before this", closing=closing))
 
 
 def _one_colon_too_many(here: _Place, lines: list[str]) -> Fault:
     line = lines[here.line] if here.line < len(lines) else ""
     indent = len(line) - len(line.lstrip())
     if ": " in line[: here.column]:
-        return _fault(here, "a second colon in this line; put the value in quotes")
+        return _fault(here, _("a second colon in this line; put the value in quotes"))
     above = next(
         (each for each in reversed(lines[: here.line]) if each.strip(" -") and "#" not in each[:1]),
         "",
     )
     if above and ":" not in above:
-        words = f"{above.strip()[:40]!r}, which stands above, has no colon; expected 'name: value'"
+        words = _(
+            "{line!r}, which stands above, has no colon; expected 'name: value'",
+            line=above.strip()[:40],
+        )
         return _fault(here, words)
     if indent > len(above) - len(above.lstrip()):
-        words = "this line is indented more than the one above, which has a value already"
+        words = _("this line is indented more than the one above, which has a value already")
         return _fault(_Place(here.line, indent), words)
-    return _fault(here, "no colon was expected here; put the value in quotes")
+    return _fault(here, _("no colon was expected here; put the value in quotes"))
 
 
 def _misaligned(here: _Place, start: _Place, lines: list[str], *, is_list: bool) -> Fault:
     line = lines[here.line] if here.line < len(lines) else ""
     before = line[: here.column].strip()
     if before and before != "-":
-        return _fault(here, "something follows after the value; put all of it in quotes")
+        return _fault(here, _("something follows after the value; put all of it in quotes"))
     line_of_start = start.line + 1
     if here.column == start.column and is_list:
-        words = f"expected '- ' before each entry of the list that begins in line {line_of_start}"
+        words = _(
+            "expected '- ' before each entry of the list that begins in line {line}",
+            line=line_of_start,
+        )
     elif here.column == start.column and line[here.column : here.column + 1] == "-":
-        words = f"a list's entry (-) among the 'name: value' lines from line {line_of_start} on"
+        words = _(
+            "a list's entry (-) among the 'name: value' lines from line {line} on",
+            line=line_of_start,
+        )
     else:
-        words = (
-            f"this line begins at column {here.column + 1}, and none of those above that it could "
-            "belong to does; expected it to line up with one of them"
+        words = _(
+            "this line begins at column {column}, and none of those above that it could belong to "
+            "does; expected it to line up with one of them",
+            column=here.column + 1,
         )
     return _fault(here, words)
 

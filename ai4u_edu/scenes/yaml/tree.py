@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import yaml
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.yaml.messages import fault_of
 
 MAX_DEPTH = 24
@@ -94,7 +95,7 @@ def _document(events: Iterator[_Event]) -> Tree:
     next(events)  # the document ends
     after = next(events)
     if not isinstance(after, yaml.StreamEndEvent):
-        raise NotYamlError(after.start_mark.line + 1, "expected one document, got another one")
+        raise NotYamlError(after.start_mark.line + 1, _("expected one document, got another one"))
     return tree
 
 
@@ -104,13 +105,15 @@ def _tree(event: _Event, events: Iterator[_Event], depth: int, line: int = 0) ->
     if isinstance(event, yaml.AliasEvent) or event.anchor is not None or event.tag is not None:
         raise NotYamlError(
             line,
-            "expected plain values; anchors (&), aliases (*) and tags (!) are not used in scene "
-            "files",
+            _(
+                "expected plain values; anchors (&), aliases (*) and tags (!) are not used in "
+                "scene files"
+            ),
         )
     if isinstance(event, yaml.ScalarEvent):
         return Tree(_value(event.value, line) if event.implicit[0] else event.value, line, _NONE)
     if depth > MAX_DEPTH:
-        raise NotYamlError(0, f"nested more than {MAX_DEPTH} deep")
+        raise NotYamlError(0, _("nested more than {max_depth} deep", max_depth=MAX_DEPTH))
     parts: dict[str | int, Tree] = {}
     if isinstance(event, yaml.SequenceStartEvent):
         while not isinstance(event := next(events), yaml.SequenceEndEvent):
@@ -119,13 +122,17 @@ def _tree(event: _Event, events: Iterator[_Event], depth: int, line: int = 0) ->
     while not isinstance(event := next(events), yaml.MappingEndEvent):
         named = _tree(event, events, depth + 1)
         if not isinstance(event, yaml.ScalarEvent):
-            raise NotYamlError(named.line, "expected words as keys, got lists or mappings")
+            raise NotYamlError(named.line, _("expected words as keys, got lists or mappings"))
         if event.value in parts:
             first = parts[event.value].line
             raise NotYamlError(
                 named.line,
-                f"{event.value!r} stands here for the second time, after line {first}; expected "
-                "each name once",
+                _(
+                    "{value} stands here for the second time, after line {first}; expected each "
+                    "name once",
+                    value=repr(event.value),
+                    first=first,
+                ),
                 _column(event),
             )
         parts[event.value] = _tree(next(events), events, depth + 1, named.line)
@@ -145,7 +152,11 @@ def _value(text: str, line: int) -> Any:
             if pattern.fullmatch(text):
                 if len(text) > MAX_NUMBER_CHARS:
                     raise NotYamlError(
-                        line, f"expected numbers of at most {MAX_NUMBER_CHARS} characters"
+                        line,
+                        _(
+                            "expected numbers of at most {max_number_chars} characters",
+                            max_number_chars=MAX_NUMBER_CHARS,
+                        ),
                     )
                 return number(text.replace("_", ""))
     return text

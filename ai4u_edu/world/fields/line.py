@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.base.parameters import Name, Point, PositiveMetres, quantity
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.descriptions import AreaDescription
 from ai4u_edu.world.fields.field import (
     Cell,
@@ -49,8 +50,12 @@ class LineBase(FieldBase):
     def _line_has_room(self) -> Self:
         if self.line_width > self.cell / 3:
             raise ValueError(
-                f"expected a line_width of at most a third of a cell ({self.cell / 3:g} m), "
-                f"got {self.line_width:g}"
+                _(
+                    "expected a line_width of at most a third of a cell ({cell:g} m), got "
+                    "{line_width:g}",
+                    cell=self.cell / 3,
+                    line_width=self.line_width,
+                )
             )
         return self
 
@@ -132,14 +137,27 @@ class LineField(LineBase):
         most = int(0.6 * self.width * self.height) - 4 * self.crossings
         if self.length > most:
             raise ValueError(
-                f"expected a length of at most {most} cells in a field of {self.width} x "
-                f"{self.height} with {self.crossings} crossings, got {self.length}"
+                _(
+                    "expected a length of at most {most} cells in a field of {width} x {height} "
+                    "with {crossings} crossings, got {length}",
+                    most=most,
+                    width=self.width,
+                    height=self.height,
+                    crossings=self.crossings,
+                    length=self.length,
+                )
             )
         least = 3 + 6 * self.crossings + 3 * self.gaps
         if self.length < least:
             raise ValueError(
-                f"expected a length of at least {least} cells for {self.crossings} crossings and "
-                f"{self.gaps} gaps, got {self.length}"
+                _(
+                    "expected a length of at least {least} cells for {crossings} crossings and "
+                    "{gaps} gaps, got {length}",
+                    least=least,
+                    crossings=self.crossings,
+                    gaps=self.gaps,
+                    length=self.length,
+                )
             )
         return self
 
@@ -149,15 +167,20 @@ class LineField(LineBase):
         Raises:
             WorldError: none of that kind was found.
         """
-        for _ in range(MAX_TRIES):
+        for _try in range(MAX_TRIES):
             path = _LineSearch(self, rng).run()
             gaps = None if path is None else self._gaps(path, rng)
             if path is not None and gaps is not None:
                 return self._built(path, gaps)
         raise WorldError(
-            f"found no line of {self.length} cells with {self.crossings} crossings and "
-            f"{self.gaps} gaps in {MAX_TRIES} tries; make it shorter, the field larger, or give it "
-            "fewer curves",
+            _(
+                "found no line of {length} cells with {crossings} crossings and {gaps} gaps in "
+                "{max_tries} tries; make it shorter, the field larger, or give it fewer curves",
+                length=self.length,
+                crossings=self.crossings,
+                gaps=self.gaps,
+                max_tries=MAX_TRIES,
+            ),
             thing="generate",
         )
 

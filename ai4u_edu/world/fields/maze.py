@@ -7,6 +7,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from ai4u_edu.base.parameters import Name, Point, PositiveMetres, quantity
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.descriptions import BodyDescription
 from ai4u_edu.world.fields.field import Cell, FieldBase, GeneratedField, direction_to, neighbours
 from ai4u_edu.world.shapes import BoxShape
@@ -37,7 +38,11 @@ class MazeField(FieldBase):
     def _has_room(self) -> Self:
         if self.wall > self.cell / 2:
             raise ValueError(
-                f"expected walls of at most half a cell ({self.cell / 2:g} m), got {self.wall:g}"
+                _(
+                    "expected walls of at most half a cell ({cell:g} m), got {wall:g}",
+                    cell=self.cell / 2,
+                    wall=self.wall,
+                )
             )
         return self
 

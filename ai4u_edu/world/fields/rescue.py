@@ -15,6 +15,7 @@ from pydantic import Field, model_validator
 
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.base.parameters import Name, Point, PositiveMetres, quantity
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.descriptions import AreaDescription, BodyDescription
 from ai4u_edu.world.fields.field import (
     STEPS,
@@ -81,26 +82,48 @@ class RescueField(LineBase):
     def _has_room(self) -> Self:
         if self.wall > self.cell / 4:
             raise ValueError(
-                f"expected walls of at most a quarter of a cell ({self.cell / 4:g} m), "
-                f"got {self.wall:g}"
+                _(
+                    "expected walls of at most a quarter of a cell ({cell:g} m), got {wall:g}",
+                    cell=self.cell / 4,
+                    wall=self.wall,
+                )
             )
         if self.room_size > min(self.width, self.height) - 3:
             raise ValueError(
-                f"expected a room_size of at most {min(self.width, self.height) - 3} tiles in a "
-                f"field of {self.width} x {self.height}, got {self.room_size}"
+                _(
+                    "expected a room_size of at most {most} tiles in a field of {width} x "
+                    "{height}, got {room_size}",
+                    most=min(self.width, self.height) - 3,
+                    width=self.width,
+                    height=self.height,
+                    room_size=self.room_size,
+                )
             )
         most = (self.width * self.height - self.room_size**2) // 2
         if self.length > most:
             raise ValueError(
-                f"expected a length of at most {most} tiles in a field of {self.width} x "
-                f"{self.height} with a room of {self.room_size} x {self.room_size}, got "
-                f"{self.length}"
+                _(
+                    "expected a length of at most {most} tiles in a field of {width} x {height} "
+                    "with a room of {room_size} x {room_size}, got {length}",
+                    most=most,
+                    width=self.width,
+                    height=self.height,
+                    room_size=self.room_size,
+                    length=self.length,
+                )
             )
         least = _least_length(self.crossings, self.gaps, self.obstacles)
         if self.length < least:
             raise ValueError(
-                f"expected a length of at least {least} tiles for {self.crossings} crossings, "
-                f"{self.gaps} gaps and {self.obstacles} obstacles, got {self.length}"
+                _(
+                    "expected a length of at least {least} tiles for {crossings} crossings, "
+                    "{gaps} gaps and {obstacles} obstacles, got {length}",
+                    least=least,
+                    crossings=self.crossings,
+                    gaps=self.gaps,
+                    obstacles=self.obstacles,
+                    length=self.length,
+                )
             )
         return self
 
@@ -125,9 +148,16 @@ class RescueField(LineBase):
             if layout is not None:
                 return self._built(layout, rng)
         raise WorldError(
-            f"found no rescue line of {self.length} tiles with {self.crossings} crossings, "
-            f"{self.gaps} gaps and {self.obstacles} obstacles in {MAX_TRIES} tries; make it "
-            "shorter, the field larger, or give it fewer of them",
+            _(
+                "found no rescue line of {length} tiles with {crossings} crossings, {gaps} gaps "
+                "and {obstacles} obstacles in {max_tries} tries; make it shorter, the field "
+                "larger, or give it fewer of them",
+                length=self.length,
+                crossings=self.crossings,
+                gaps=self.gaps,
+                obstacles=self.obstacles,
+                max_tries=MAX_TRIES,
+            ),
             thing="generate",
         )
 
@@ -407,7 +437,7 @@ class _PathSearch:
         x, y = (far, across) if way_out % 2 == 0 else (across, far)
         self._path = [(self._corner[0] + x, self._corner[1] + y)]
         # the last two tiles are straight, so that a robot enters the room straight
-        for _ in range(2):
+        for _tile in range(2):
             cell = moved(self._path[-1], way_out)
             if not self._field.inside(cell):
                 return None

@@ -13,6 +13,7 @@ from ai4u_edu.blocks.brains.controllers.steering import SteeringController, stee
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import Code, spread
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 _TURN_BACK_DECISIONS = 10
@@ -59,7 +60,11 @@ class AntController(SteeringController):
         sensor = self._sensors["rays"]
         if not isinstance(sensor, LinearRayCastingSensor) or not sensor.return_distance:
             raise BlockError(
-                f"rays: expected a LinearRayCastingSensor with return_distance=True, got {sensor!r}"
+                _(
+                    "rays: expected a LinearRayCastingSensor with return_distance=True, got "
+                    "{sensor}",
+                    sensor=repr(sensor),
+                )
             )
         self._angles = spread(sensor.number_of_rays, sensor.field_of_view)
 

@@ -13,6 +13,7 @@ from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.wasd import Amount, Keys
 from ai4u_edu.blocks.keyboard import combine
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 Component = Literal[
@@ -127,8 +128,13 @@ class ArrowController(Controller):
         if self.components is not None:
             if len(self.components) != size:
                 raise BlockError(
-                    f"components: expected {size}, as actuator {self.actuator_name!r} takes, "
-                    f"got {len(self.components)}"
+                    _(
+                        "components: expected {size}, as actuator {actuator_name!r} takes, got "
+                        "{count}",
+                        size=size,
+                        actuator_name=self.actuator_name,
+                        count=len(self.components),
+                    )
                 )
             return self.components
         known = next(
@@ -147,14 +153,25 @@ class ArrowController(Controller):
         values = len(self.extra_actions_value)
         if not keys == places == values:
             raise BlockError(
-                "expected as many extra_keys as extra_actions_index and extra_actions_value, got "
-                f"{keys}, {places} and {values}"
+                _(
+                    "expected as many extra_keys as extra_actions_index and extra_actions_value, "
+                    "got {keys}, {places} and {values}",
+                    keys=keys,
+                    places=places,
+                    values=values,
+                )
             )
         for index in self.extra_actions_index:
             if index >= size:
                 raise BlockError(
-                    f"extra_actions_index: expected indices up to {size - 1}, as actuator "
-                    f"{self.actuator_name!r} takes {size} numbers, got {index}"
+                    _(
+                        "extra_actions_index: expected indices up to {size}, as actuator "
+                        "{actuator_name!r} takes {size2} numbers, got {index}",
+                        size=size - 1,
+                        actuator_name=self.actuator_name,
+                        size2=size,
+                        index=index,
+                    )
                 )
 
 
@@ -166,7 +183,9 @@ def limits_of(name: str, agent: AgentView) -> tuple[list[float], list[float]]:
     """
     actuators = {each.action_name: each for each in agent.actuators if each.is_active}
     if name not in actuators:
-        raise BlockError(f"no actuator is called {name!r}; {suggest(name, actuators)}")
+        raise BlockError(
+            _("no actuator is called {name!r}; {hint}", name=name, hint=suggest(name, actuators))
+        )
     return actuators[name].limits()
 
 

@@ -4,6 +4,7 @@ from ai4u_edu.base.errors import BlockError
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Answer
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
 
 
 class Controller(Block):
@@ -24,7 +25,10 @@ class Controller(Block):
             percept: the agent's present readings.
         """
         raise BlockError(
-            f"{type(self).__name__} has no get_action(self, percept): it must return an action"
+            _(
+                "{type} has no get_action(self, percept): it must return an action",
+                type=type(self).__name__,
+            )
         )
 
     def new_state_event(self, percept: Percept) -> None:

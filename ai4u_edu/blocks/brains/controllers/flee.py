@@ -11,6 +11,7 @@ from ai4u_edu.blocks.brains.controllers.steering import LocalPoint, SteeringCont
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import spread
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 STRAIGHT_WEIGHT = 0.3
@@ -48,7 +49,11 @@ class FleeController(SteeringController):
         sensor = self._sensors["rays"]
         if not isinstance(sensor, LinearRayCastingSensor) or not sensor.return_distance:
             raise BlockError(
-                f"rays: expected a LinearRayCastingSensor with return_distance=True, got {sensor!r}"
+                _(
+                    "rays: expected a LinearRayCastingSensor with return_distance=True, got "
+                    "{sensor}",
+                    sensor=repr(sensor),
+                )
             )
         self._reach = sensor.vision_max_distance
         self._unit = sensor.vision_max_distance / sensor.farthest

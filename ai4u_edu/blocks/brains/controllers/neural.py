@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.base.errors import BlockError, shorten, suggest
+from ai4u_edu.base.errors import BlockError, shorten, suggest, text_of
 from ai4u_edu.blocks.agent_view import AgentView, SensorView
 from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
@@ -18,6 +18,8 @@ from ai4u_edu.blocks.brains.network import (
     folder_of_files,
 )
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.world import WorldView
 
 TRAINED_IN = "it was trained in the scene "
@@ -73,13 +75,20 @@ class NeuralNetController(Controller):
         name = network.path.name
         sensors = {each.perception_key: each for each in agent.sensors if each.is_active}
         wrong = [_misfit(port, sensors, network.about) for port in network.inputs]
-        found = "; ".join(filter(None, wrong))
+        found = join(list(filter(None, wrong)), "; ")
         trained_in = network.about.get("scene")
         if found:
-            scene = ""
-            if isinstance(trained_in, str) and trained_in:
-                scene = f" ({TRAINED_IN}{shorten(trained_in, MAX_SCENE_NAME_CHARS)!r})"
-            raise BlockError(f"the network {name} does not fit agent {agent.id!r}{scene}: {found}")
+            who: dict[str, str] = {"name": name, "id": agent.id, "found": found}
+            if not (isinstance(trained_in, str) and trained_in):
+                raise BlockError(_("the network {name} does not fit agent {id!r}: {found}", **who))
+            raise BlockError(
+                _(
+                    "the network {name} does not fit agent {id!r} (it was trained in the scene "
+                    "{scene!r}): {found}",
+                    scene=shorten(trained_in, MAX_SCENE_NAME_CHARS),
+                    **who,
+                )
+            )
         actuators = {each.action_name: each for each in agent.actuators if each.is_active}
         outputs = [port for port in network.outputs if port.name != VALUE_OUTPUT]
         only = len(outputs) == 1
@@ -87,17 +96,30 @@ class NeuralNetController(Controller):
             (port.name, self.main_output if only and port.name not in actuators else port.name)
             for port in outputs
         ]
-        for port, (_, target) in zip(outputs, self._targets, strict=True):
+        for port, (_name, target) in zip(outputs, self._targets, strict=True):
             if target not in actuators:
                 raise BlockError(
-                    f"the network {name} drives an actuator {target!r}, and agent {agent.id!r} "
-                    f"has none of that name; {suggest(target, actuators)}"
+                    _(
+                        "the network {name} drives an actuator {target}, and agent {id!r} has "
+                        "none of that name; {hint}",
+                        name=name,
+                        target=repr(target),
+                        id=agent.id,
+                        hint=suggest(target, actuators),
+                    )
                 )
             takes, gives = len(actuators[target].limits()[0]), math.prod(port.shape)
             if takes != gives:
                 raise BlockError(
-                    f"the network {name} gives {gives} numbers for {target!r}, and that actuator "
-                    f"of agent {agent.id!r} takes {takes}"
+                    _(
+                        "the network {name} gives {gives} numbers for {target}, and that actuator "
+                        "of agent {id!r} takes {takes}",
+                        name=name,
+                        gives=gives,
+                        target=repr(target),
+                        id=agent.id,
+                        takes=takes,
+                    )
                 )
 
     def get_action(self, percept: Percept) -> Answer:
@@ -120,7 +142,9 @@ class NeuralNetController(Controller):
             raise self._named_error(error) from None
 
     def _named_error(self, error: BlockError) -> BlockError:
-        return BlockError(f"{type(self).__name__} {self.model_path!r}: {error}")
+        return BlockError(
+            join([f"{type(self).__name__} {self.model_path!r}", text_of(error)], ": ")
+        )
 
 
 def _misfit(port: Port, sensors: dict[str, SensorView], about: dict[str, Any]) -> str:
@@ -128,16 +152,23 @@ def _misfit(port: Port, sensors: dict[str, SensorView], about: dict[str, Any]) -
     sensor = sensors.get(port.name)
     if sensor is None:
         made_by = _type_of(port.name, about)
-        named = f" (a {made_by}, where it was trained)" if made_by else ""
-        return (
-            f"sensor {port.name!r} of shape {port.shape}{named} is missing; "
-            f"{suggest(port.name, sensors)}"
+        about_it = {"name": port.name, "shape": str(port.shape)}
+        hint = suggest(port.name, sensors)
+        if not made_by:
+            return _("sensor {name!r} of shape {shape} is missing; {hint}", hint=hint, **about_it)
+        return _(
+            "sensor {name!r} of shape {shape} (a {type}, where it was trained) is missing; {hint}",
+            type=made_by,
+            hint=hint,
+            **about_it,
         )
     shape = sensor.observation_space().shape or ()
     if shape != port.shape:
-        return (
-            f"sensor {port.name!r} has the shape {shape}, and the network was trained with "
-            f"{port.shape}"
+        return _(
+            "sensor {name!r} has the shape {shape}, and the network was trained with {shape2}",
+            name=port.name,
+            shape=str(shape),
+            shape2=str(port.shape),
         )
     return ""
 

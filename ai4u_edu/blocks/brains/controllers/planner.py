@@ -12,6 +12,7 @@ from ai4u_edu.base.parameters import Name
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 Cell = tuple[int, int]
@@ -74,7 +75,9 @@ class PlanController(Controller):
 
     def search(self, free: Map, start: Cell, goals: Iterable[Cell]) -> Found:
         """Return a path from the start to the nearest goal."""
-        raise BlockError(f"{type(self).__name__} has no search(self, free, start, goals)")
+        raise BlockError(
+            _("{type} has no search(self, free, start, goals)", type=type(self).__name__)
+        )
 
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Start without a path."""
@@ -94,8 +97,13 @@ class PlanController(Controller):
         for key in (self.grid, self.cell):
             if key not in percept:
                 raise BlockError(
-                    f"{type(self).__name__} needs a GridSensor and a CellSensor, and no sensor has "
-                    f"the key {key!r}; {suggest(key, percept)}"
+                    _(
+                        "{type} needs a GridSensor and a CellSensor, and no sensor has the key "
+                        "{key!r}; {hint}",
+                        type=type(self).__name__,
+                        key=key,
+                        hint=suggest(key, percept),
+                    )
                 )
         grid = np.asarray(percept[self.grid])
         row, column = map(int, percept[self.cell])

@@ -15,6 +15,7 @@ from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.wasd import Amount
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 LocalPoint = tuple[float, float]
@@ -130,7 +131,12 @@ def _sensor_of(agent: AgentView, parameter: str, key: str) -> Sensor:
     }
     if key not in sensors:
         raise BlockError(
-            f"{parameter}: no sensor has the perception_key {key!r}; {suggest(key, sensors)}"
+            _(
+                "{parameter}: no sensor has the perception_key {key!r}; {hint}",
+                parameter=parameter,
+                key=key,
+                hint=suggest(key, sensors),
+            )
         )
     found: Sensor = sensors[key]
     return found

@@ -10,6 +10,7 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Answer, Command
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.percept import Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 __all__ = ["TrainController", "Trainer"]
@@ -97,7 +98,7 @@ class TrainController(Controller):
         Raises:
             ActionError: there is no such actuator, or these are not finite numbers.
         """
-        self._request(name, values, "finite numbers")
+        self._request(name, values, _("finite numbers"))
 
     def request_action(self, name: str, values: Sequence[int]) -> None:
         """Request an action of whole numbers for the next decision: one choice, as a list.
@@ -109,7 +110,7 @@ class TrainController(Controller):
         Raises:
             ActionError: there is no such actuator, or these are not whole numbers.
         """
-        self._request(name, values, "whole numbers", are_whole=True)
+        self._request(name, values, _("whole numbers"), are_whole=True)
 
     def request_restart(self) -> None:
         """Request a new episode in place of the next decision."""
@@ -153,7 +154,13 @@ class TrainController(Controller):
         if self._agent is not None:
             known = {each.action_name for each in self._agent.actuators if each.is_active}
             if name not in known:
-                raise ActionError(f"no actuator is called {name!r}; {suggest(name, known)}")
+                raise ActionError(
+                    _(
+                        "no actuator is called {name!r}; {hint}",
+                        name=name,
+                        hint=suggest(name, known),
+                    )
+                )
         try:
             numbers = np.asarray(values)
             if not are_whole:
@@ -163,5 +170,12 @@ class TrainController(Controller):
         except (TypeError, ValueError):
             fits = False
         if not fits or numbers.ndim != 1:
-            raise ActionError(f"action {name!r}: expected {expected} in a list, got {values!r}")
+            raise ActionError(
+                _(
+                    "action {name!r}: expected {expected} in a list, got {values}",
+                    name=name,
+                    expected=expected,
+                    values=repr(values),
+                )
+            )
         self._requested[name] = tuple(numbers.tolist())

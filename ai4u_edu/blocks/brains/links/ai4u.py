@@ -5,11 +5,13 @@ import time
 import weakref
 from collections.abc import Callable
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.blocks.brains.brain import Command
 from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, ResetRequest
 from ai4u_edu.blocks.brains.links.link_thread import LinkThread
 from ai4u_edu.blocks.brains.links.udp import UdpSocket
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.wire.agent_codec import AgentCodec
 from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, ReplyKind, SentState, SessionPhase
 from ai4u_edu.wire.validation import WireError, shown
@@ -94,7 +96,7 @@ class AI4ULink:
 
     def open(self, spec: AgentSpec) -> None:
         """Begin to look for a script."""
-        self.close("the agent is set up again")
+        self.close(_("the agent is set up again"))
         self._codec = AI4UCodec(spec)
         self._readable = spec.fields
         self._dialogue = AI4UDialogue(
@@ -105,7 +107,7 @@ class AI4ULink:
             repeat_action=spec.repeat_action,
         )
         self.state = LinkState.WAITING
-        self.reason = f"no AI4U script listens at {self.where} yet"
+        self.reason = _("no AI4U script listens at {where} yet", where=self.where)
         self._sent_at = NEVER
         self._time_requests = 0
         """Replies in a row by which the script asked for time."""
@@ -239,7 +241,7 @@ class AI4ULink:
     def _receive(self, deadline: float) -> AI4UReply | None:
         """Return the reply to the request in flight; None if it is not there yet, or was lost."""
         udp = self._opened_socket()
-        for _ in range(MAX_RECEIVED_AT_ONCE):
+        for _datagram in range(MAX_RECEIVED_AT_ONCE):
             udp.wait_readable(max(0.0, self._wait_until(deadline) - self._clock()) * 1000)
             looked_at = self._clock()  # a reply may come while this thread gets no processor time
             try:
@@ -255,7 +257,9 @@ class AI4ULink:
                     return self._dialogue.parse_reply(datagram)
                 except WireError as error:
                     if self.state is LinkState.CONNECTED:
-                        self._malformed = f"a message of the script was ignored: {error}"
+                        self._malformed = _(
+                            "a message of the script was ignored: {error}", error=text_of(error)
+                        )
             self.ignored += 1
         self._check_timeout(looked_at)
         return None
@@ -279,14 +283,17 @@ class AI4ULink:
             case ReplyKind.RESET:
                 return Reply(ResetRequest(), observation, self._warning(received), fields)
             case ReplyKind.HALT:
-                self._end_session(LinkState.WAITING, f"the script at {self.where} has ended")
+                self._end_session(
+                    LinkState.WAITING, _("the script at {where} has ended", where=self.where)
+                )
             case ReplyKind.ACTION if self.expects_reply:
                 action = self._codec.action(received.orders)
                 return Reply(action, observation, self._warning(received), fields)
             case ReplyKind.ACTION:
-                self._malformed = (
-                    f"action {shown(received.orders[0].name)} had no effect: expected '__reset__' "
-                    "first, with which an episode begins"
+                self._malformed = _(
+                    "action {name} had no effect: expected '__reset__' first, with which an "
+                    "episode begins",
+                    name=shown(received.orders[0].name),
                 )
             case _ if self.expects_reply:
                 return Reply(COMMANDS[kind], observation, self._warning(received), fields)
@@ -299,7 +306,7 @@ class AI4ULink:
         dropped = self._codec.find_dropped(
             received.orders, is_action=is_action, readable=self._readable
         )
-        return "; ".join(filter(None, (malformed, dropped)))
+        return join(list(filter(None, (malformed, dropped))), "; ")
 
     def _check_timeout(self, looked_at: float) -> None:
         """End a session whose script had not answered when the socket was looked at."""
@@ -307,23 +314,33 @@ class AI4ULink:
         if self._dialogue.phase is SessionPhase.CONNECTING:
             self._dialogue.in_flight = silence < CONNECT_INTERVAL_S
         elif silence > self._timeout:
-            self._end_session(
-                LinkState.LOST,
-                f"the script at {self.where} did not answer for {self._timeout:g} s: its session "
-                "is over, since AI4U's protocol can't make up for a lost packet; start the script "
-                "again (or give it a longer receive_timeout, if it was only slow)"
-                + (f"; {self._malformed}" if self._malformed else ""),
+            lost = _(
+                "the script at {where} did not answer for {timeout:g} s: its session is over, "
+                "since AI4U's protocol can't make up for a lost packet; start the script again "
+                "(or give it a longer receive_timeout, if it was only slow)",
+                where=self.where,
+                timeout=self._timeout,
             )
+            reasons = list(filter(None, (lost, self._malformed)))
+            self._end_session(LinkState.LOST, join(reasons, "; "))
 
     def _handle_unreachable(self, error: OSError) -> None:
         if self._dialogue.phase is SessionPhase.CONNECTING:
             self._dialogue.in_flight = False
             if not isinstance(error, ConnectionError):
-                self.reason = f"{self.where} can't be reached: {error.strerror or error}"
+                self.reason = _(
+                    "{where} can't be reached: {why}",
+                    where=self.where,
+                    why=error.strerror or str(error),
+                )
         else:
             self._end_session(
                 LinkState.LOST,
-                f"the script at {self.where} is gone ({error.strerror or error}); start it again",
+                _(
+                    "the script at {where} is gone ({why}); start it again",
+                    where=self.where,
+                    why=error.strerror or str(error),
+                ),
             )
 
     def _end_session(self, state: LinkState, reason: str) -> None:
@@ -352,7 +369,9 @@ class AI4ULink:
         """Return the socket; open it first, and start the thread, if that was not done yet."""
         if self._socket is None:
             if not self._is_open:
-                raise SetupError(f"the link to {self.where} is closed; expected open() first")
+                raise SetupError(
+                    _("the link to {where} is closed; expected open() first", where=self.where)
+                )
             self._socket = UdpSocket(self._peer)
             self._close_socket = weakref.finalize(self, self._socket.close)
             if self._is_threaded:
@@ -375,7 +394,11 @@ def _resolve(host: str, port: int) -> tuple[str, int]:
         found = socket.getaddrinfo(host, port, socket.AF_INET, socket.SOCK_DGRAM)
     except OSError as error:
         raise SetupError(
-            f"host: expected a name or an IPv4 address, got {host!r} ({error.strerror or error})"
+            _(
+                "host: expected a name or an IPv4 address, got {host} ({why})",
+                host=repr(host),
+                why=error.strerror or str(error),
+            )
         ) from None
     address = found[0][4]
     return str(address[0]), int(address[1])
