@@ -29,6 +29,8 @@ _RULE = re.compile(r"\s*\|[-|: ]+\|\s*")
 _LABELS = ("title", "xlabel", "ylabel")
 """Names of arguments whose strings are read, also if they are one word."""
 _FENCE = "```"
+_INDENT = "    "
+"""Beginning of the lines of a block of code without a fence."""
 _HTML = re.compile(r"\s*<")
 _ALT = re.compile(r'(?<= alt=")[^"]+')
 _QUOTES = re.compile(r"""[a-zA-Z]*(?P<quote>\"{3}|'{3}|"|')""")
@@ -121,11 +123,12 @@ def translated_code(exercise: str, code: str) -> str:
 def _text_in(source: str, translate: Translate) -> str:
     lines: list[str] = []
     is_code = False
-    for is_blank, block in groupby(source.splitlines(), lambda line: not line.strip()):
-        if is_blank:
+    for is_blank, group in groupby(source.splitlines(), lambda line: not line.strip()):
+        block = list(group)
+        if is_blank or all(line.startswith(_INDENT) and _FENCE not in line for line in block):
             lines += block
             continue
-        for item in _items(list(block)):
+        for item in _items(block):
             was_code = is_code
             is_code ^= item[0].lstrip().startswith(_FENCE)
             if was_code or is_code or _RULE.fullmatch(item[0]):

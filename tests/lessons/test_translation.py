@@ -37,6 +37,14 @@ def test_html_is_kept_but_for_the_words_of_pictures() -> None:
     )
 
 
+def test_a_block_of_code_needs_no_fence() -> None:
+    page = Cell("So:\n\n    def decide(percept):\n        return percept\n\nThen.", is_text=True)
+    assert list(texts_of(page)) == ["So:", "Then."]
+    assert translated_cell(page, str.upper).source == page.source.replace("So", "SO").replace(
+        "Then", "THEN"
+    )
+
+
 def test_code_is_cut_into_comments_and_strings_that_are_read() -> None:
     source = (
         "# turn left\n"
