@@ -15,9 +15,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.recording import Recorder, Replay
-from ai4u_edu.runtime.clock import Clock, TickSchedule
+from ai4u_edu.runtime.clock import Clock, EpisodeClock, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
-from ai4u_edu.runtime.episode_clock import EpisodeClock
 from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.pending_answers import PendingAnswers
 from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher

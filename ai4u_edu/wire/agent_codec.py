@@ -1,19 +1,33 @@
 """An agent in the terms of AI4U's protocol."""
 
 import base64
-from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import Any, Protocol
+import json
+import struct
+import zlib
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.wire.ai4u import Kind, ReplyCommand, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
-from ai4u_edu.wire.ai4u_metadata import ModelInput, ModelOutput, metadata
-from ai4u_edu.wire.png import grey_png
 from ai4u_edu.wire.validation import WireError, shown
 
+SENSOR_TYPES = {
+    "sfloat": 0,
+    "sstring": 1,
+    "sbool": 2,
+    "sint": 3,
+    "sbytearray": 4,
+    "sfloatarray": 5,
+    "sintarray": 6,
+    "sstrings": 7,
+    "simage": 8,
+}
+"""Numbers of AI4U's types in the metadata; fields on the wire have other numbers (``Kind``)."""
 KINDS = {
     "sfloat": Kind.FLOAT,
     "sbool": Kind.BOOL,
@@ -29,6 +43,64 @@ MAX_LISTED_FIELDS = 4
 """Fields that a sentence names; a reply may have hundreds."""
 TEXT_TYPES = ("sstring", "sstrings")
 """Types that are sent, but not part of the metadata: a script has no space for texts."""
+_PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+
+class ModelInput(NamedTuple):
+    """A reading that is part of a policy's observation."""
+
+    name: str
+    shape: tuple[int, ...]
+    type: str
+    """One of :data:`SENSOR_TYPES`."""
+    low: float
+    high: float
+
+
+class ModelOutput(NamedTuple):
+    """An actuator that a policy drives."""
+
+    name: str
+    is_continuous: bool
+    shape: tuple[int, ...]
+    low: tuple[float, ...]
+    high: tuple[float, ...]
+
+
+def metadata(inputs: Iterable[ModelInput], outputs: Iterable[ModelOutput]) -> str:
+    """Return the metadata as JSON.
+
+    An infinite bound is written as JavaScript's ``Infinity``, which Python reads.
+
+    >>> metadata([ModelInput("eyes", (2,), "sfloatarray", 0.0, 1.0)], [])
+    '{"inputs": [{"name": "eyes", "shape": [2], "type": 5, "rangeMin": 0.0, "rangeMax": 1.0, \
+"dataType": 5}], "outputs": []}'
+    """
+    return json.dumps(
+        {
+            "inputs": [
+                {
+                    "name": name,
+                    "shape": list(shape),
+                    "type": SENSOR_TYPES[kind],
+                    "rangeMin": low,
+                    "rangeMax": high,
+                    "dataType": SENSOR_TYPES[kind],
+                }
+                for name, shape, kind, low, high in inputs
+            ],
+            "outputs": [
+                {
+                    "name": name,
+                    "isContinuous": continuous,
+                    "shape": list(shape),
+                    "rangeMin": list(low),
+                    "rangeMax": list(high),
+                }
+                for name, continuous, shape, low, high in outputs
+            ],
+        }
+    )
 
 
 class ReadingLike(Protocol):
@@ -193,3 +265,26 @@ def _output(output: OutputLike) -> ModelOutput:
     assert isinstance(space, spaces.Box)  # noqa: S101 - an actuator has no other space
     low, high = space.low.ravel().tolist(), space.high.ravel().tolist()
     return ModelOutput(output.name, True, (len(low),), tuple(low), tuple(high))
+
+
+def grey_png(picture: npt.NDArray[Any]) -> bytes:
+    r"""Return a picture of shape (height, width), uint8, as a PNG file.
+
+    >>> grey_png(np.zeros((2, 3), np.uint8))[:4]
+    b'\x89PNG'
+    """
+    height, width = picture.shape
+    rows = np.zeros((height, width + 1), np.uint8)  # each begins with its filter type: 0 for none
+    rows[:, 1:] = picture
+    return b"".join(
+        (
+            _PNG_SIGNATURE,
+            _png_chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)),
+            _png_chunk(b"IDAT", zlib.compress(rows.tobytes(), 1)),
+            _png_chunk(b"IEND", b""),
+        )
+    )
+
+
+def _png_chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))

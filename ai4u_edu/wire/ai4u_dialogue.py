@@ -128,7 +128,7 @@ class AI4UDialogue:
     Args:
         agent: the agent's id.
         max_steps: decisions after which an episode is truncated.
-        metadata: from :func:`~ai4u_edu.wire.ai4u_metadata.metadata`.
+        metadata: from :func:`~ai4u_edu.wire.agent_codec.metadata`.
         skip_frame: ticks skipped between two decisions.
         repeat_action: whether an action is applied on each of these ticks.
 

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ai4u_edu.wire.agent_codec import grey_png
 from ai4u_edu.wire.ai4u import (
     MAX_DATAGRAM_BYTES,
     Field,
@@ -23,7 +24,6 @@ from ai4u_edu.wire.ai4u import (
     number,
 )
 from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, ReplyKind, SentState, SessionPhase
-from ai4u_edu.wire.png import grey_png
 from ai4u_edu.wire.validation import WireError
 
 EVERY_KIND = (

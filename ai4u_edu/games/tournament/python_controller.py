@@ -2,10 +2,12 @@
 
 import json
 import os
+import queue
 import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from contextlib import suppress
 from typing import IO, Any
@@ -19,7 +21,6 @@ from ai4u_edu.blocks import Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Action
 from ai4u_edu.games.tournament.limits import CHECK_INTERVAL_S, DECISION_CPU_S, GAME_CPU_S, over_time
-from ai4u_edu.games.tournament.line_reader import LineReader
 from ai4u_edu.world import WorldView
 
 START_CPU_S = 20.0
@@ -30,6 +31,11 @@ END_TIMEOUT_S = 2.0
 """Wall time in which a process that has closed its output ends by itself."""
 MAX_ANSWER_BYTES = 65_536
 MODULE = "ai4u_edu.games.tournament.python_child"
+MAX_WAITING_LINES = 4
+"""Lines that are read before somebody asks for them; then the writer has to wait."""
+READER_END_TIMEOUT_S = 1.0
+"""Time in which the thread notices that the writer has ended."""
+READER_JOIN_TIMEOUT_S = 0.01
 
 
 class PythonController(Controller):
@@ -211,3 +217,55 @@ def _plain(percept: Percept) -> dict[str, Any]:
         name: reading.tolist() if isinstance(reading, np.ndarray) else reading
         for name, reading in percept.items()
     }
+
+
+class LineReader:
+    """Reads a pipe in a thread of its own: Windows can't wait for a pipe with a time limit.
+
+    One other thread calls it.
+
+    Args:
+        pipe: what is read; it is closed with the reader.
+        max_bytes: a longer line is cut off there.
+    """
+
+    def __init__(self, pipe: IO[bytes], max_bytes: int) -> None:
+        self._pipe, self._max_bytes = pipe, max_bytes
+        self._lines: queue.Queue[bytes] = queue.Queue(MAX_WAITING_LINES)
+        self._is_closed = False
+        self._thread = threading.Thread(target=self._read, name="line reader", daemon=True)
+        self._thread.start()
+
+    def line(self, timeout_s: float) -> bytes | None:
+        """Return the next line; None if none comes in time.
+
+        At the end of the pipe the line has no line break, and is usually empty; nor has a line that
+        was cut off.
+        """
+        try:
+            return self._lines.get(timeout=timeout_s)
+        except queue.Empty:
+            return None
+
+    def close(self) -> None:
+        """End the thread and close the pipe, once the writer has ended.
+
+        If somebody else still holds the pipe open, both stay.
+        """
+        self._is_closed = True
+        until = time.monotonic() + READER_END_TIMEOUT_S
+        while self._thread.is_alive() and time.monotonic() < until:
+            with suppress(queue.Empty):  # it may wait for a place in the queue
+                self._lines.get_nowait()
+            self._thread.join(READER_JOIN_TIMEOUT_S)
+        if not self._thread.is_alive():
+            self._pipe.close()
+
+    def _read(self) -> None:
+        line = b"\n"
+        while line.endswith(b"\n") and not self._is_closed:
+            try:
+                line = self._pipe.readline(self._max_bytes + 1)
+            except (OSError, ValueError):
+                line = b""
+            self._lines.put(line)

@@ -10,10 +10,9 @@ from typer.testing import CliRunner
 from ai4u_edu import ControlRequestor, LocalBrain, Scene
 from ai4u_edu.base.errors import BlockError, SetupError
 from ai4u_edu.cli.main import app
-from ai4u_edu.learn.training import program_files
+from ai4u_edu.learn.training import policies
 from ai4u_edu.learn.training.evaluating import evaluate
-from ai4u_edu.learn.training.policies import entrant
-from ai4u_edu.learn.training.program_files import ProgramController
+from ai4u_edu.learn.training.policies import ProgramController, entrant
 from tests.waiting import LIMIT_S
 
 AHEAD = "def decide(percept):\n    return {'move': [percept['orientation'].max(), 0, 0, 0]}\n"
@@ -35,7 +34,7 @@ class Counter(Controller):
 @pytest.fixture(autouse=True)
 def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let no program be ended because the machine is busy."""
-    monkeypatch.setattr(program_files, "CALL_LIMIT_S", LIMIT_S)
+    monkeypatch.setattr(policies, "CALL_LIMIT_S", LIMIT_S)
 
 
 def built(tmp_path: Path, source: str, entry: str = "decide") -> ControlRequestor:
