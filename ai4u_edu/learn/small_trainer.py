@@ -45,6 +45,9 @@ MIN_INTERVAL_S = 1.0
 OnRound = Callable[[int, Callable[[Path], object]], object]
 """Called with the decisions that were learned from so far, and a function that writes the network
 as it is to a file."""
+REACTION_S = 0.15
+"""Time until a person's keys answer what they see, or rather a bit less, since people look ahead.
+Measured by ``python -m tests.benchmarks.clones``."""
 BLOCK_S = 2.0
 """Time of a block of decisions that is held out of a cloning with few drives."""
 
@@ -231,6 +234,7 @@ def clone(
         )
         for episode in shown.episodes
     ]
+    is_by_person = persons_only or all(episode.by_person.all() for episode in shown.episodes)
     bar = ProgressBar(updates, "updates", quiet=quiet)
 
     def show(update: int, error: float) -> None:
@@ -245,6 +249,7 @@ def clone(
             seed=seed,
             updates=updates,
             block=max(1, round(BLOCK_S * decisions_per_s)),
+            person_delay=round(REACTION_S * decisions_per_s) if is_by_person else None,
             on_error=show,
         )
     finally:

@@ -36,26 +36,32 @@ class ActorCritic:
 
     Actions of real numbers: the actor gives each of them in units of its range (1 is the end that
     is farther from 0), and what is beyond the range is cut off. Choices: the actor gives one number
-    for each, and the largest one wins.
+    for each, and the largest one wins. So it is, too, with an action of real numbers of which only
+    a few are done, those of a person's keys: halfway between "left" and "right" lies "rest", which
+    is what nobody wanted where one turns either way.
 
     Args:
         observation_space: (r,) of a flat observation.
         action_space: a Box (n,) whose numbers have bounds, or a Discrete.
         layers: neurons of the hidden layers.
+        key_actions: (k, n) the only actions of a Box to choose from; left out, all in its range.
 
     Attributes:
         parameters: all numbers that can be learned, in one array: actor, critic, ``log_spread``.
         gradient: of the same shape; both networks write theirs into it.
         actor, critic: the networks.
         log_spread: (n,) logarithm of how far an action that is tried out lies from the actor's, in
-            units of its range; (0,) for choices. Only PPO uses and changes it.
+            units of its range; (0,) if it chooses. Only PPO uses and changes it.
         middle, size: (r,) a reading goes in as (reading - middle) / size.
-        low, high, unit: (n,) ends of an action's range, and the larger of their absolute values.
-        chooses: True for a Discrete action space.
-        first_choice: number of the first choice.
+        low, high, unit: (n,) ends of an action's range, and the larger of their absolute values;
+            (0,) for a Discrete.
+        chooses: True for a Discrete action space, and with key actions.
+        first_choice: number of the first choice of a Discrete.
+        key_actions: (k, n) as given, or None.
 
     Raises:
-        SetupError: such observations or actions can't be learned.
+        SetupError: such observations or actions can't be learned, or the key actions are no
+            actions of the space.
     """
 
     def __init__(
@@ -63,11 +69,15 @@ class ActorCritic:
         observation_space: spaces.Space[Any],
         action_space: spaces.Space[Any],
         layers: Sequence[int] = LAYERS,
+        key_actions: npt.NDArray[Any] | None = None,
     ) -> None:
         outputs = _output_count(action_space)
+        if key_actions is not None:
+            outputs = len(_checked_key_actions(key_actions, action_space))
         self.observation_space, self.action_space = observation_space, action_space
         self.layers = tuple(layers)
-        self.chooses = isinstance(action_space, spaces.Discrete)
+        self.key_actions = None if key_actions is None else key_actions.astype(np.float32)
+        self.chooses = isinstance(action_space, spaces.Discrete) or key_actions is not None
         self.first_choice = int(action_space.start) if _is_choice(action_space) else 0
         self.low, self.high = _bounds(action_space)
         # 0 stays 0, since it usually means rest: an action of 0 to 1 begins at 0, not at 0.5
@@ -78,7 +88,8 @@ class ActorCritic:
         actor_sizes, critic_sizes = (inputs, *layers, outputs), (inputs, *layers, 1)
         actor_end = parameter_count(actor_sizes)
         critic_end = actor_end + parameter_count(critic_sizes)
-        self.parameters = np.zeros(critic_end + len(self.low), np.float32)
+        spreads = 0 if self.chooses else len(self.low)
+        self.parameters = np.zeros(critic_end + spreads, np.float32)
         self.gradient = np.zeros_like(self.parameters)
         numbers, slopes = self.parameters, self.gradient
         self.actor = Mlp(actor_sizes, numbers[:actor_end], slopes[:actor_end])
@@ -109,6 +120,8 @@ class ActorCritic:
         Returns:
             (n, numbers) float32 within the bounds, or (n,) int64.
         """
+        if self.key_actions is not None:
+            return self.key_actions[taken.astype(np.int64)]
         if self.chooses:
             return taken.astype(np.int64) + self.first_choice
         actions: npt.NDArray[Any] = np.clip(taken * self.unit, self.low, self.high)
@@ -121,7 +134,9 @@ class ActorCritic:
 
     def copy(self) -> "ActorCritic":
         """Return a copy that shares no array with this one."""
-        other = ActorCritic(self.observation_space, self.action_space, self.layers)
+        other = ActorCritic(
+            self.observation_space, self.action_space, self.layers, self.key_actions
+        )
         other.parameters[:] = self.parameters
         other.middle, other.size = self.middle.copy(), self.size.copy()
         return other
@@ -145,6 +160,22 @@ def _output_count(space: spaces.Space[Any]) -> int:
             f"expected an agent with one actuator whose numbers have a range, got {space}"
         )
     return int(np.prod(space.shape))
+
+
+def _checked_key_actions(
+    key_actions: npt.NDArray[Any], space: spaces.Space[Any]
+) -> npt.NDArray[Any]:
+    """Return key actions, if all of them are actions of the space."""
+    low, high = _bounds(space)
+    if (
+        _is_choice(space)
+        or key_actions.ndim != 2
+        or key_actions.shape[1:] != low.shape
+        or not len(key_actions)
+        or not ((low <= key_actions) & (key_actions <= high)).all()
+    ):
+        raise SetupError(f"expected key actions of the space {space}, got {key_actions.tolist()}")
+    return key_actions
 
 
 def _bounds(space: spaces.Space[Any]) -> tuple[Floats, Floats]:

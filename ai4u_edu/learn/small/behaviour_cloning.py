@@ -10,6 +10,17 @@ asked what it would have done in those. Two decisions in a row are nearly equal,
 can't be held out: it would be known from its neighbours. Whole drives can, or blocks of two
 seconds.
 
+A person's drives need three things more, without which a clone of five drives by keys reached the
+box from three of four starts; with them, from nearly all:
+
+- **It chooses among the keys' actions.** A mean of "left" and "right" is "rest", and then the robot
+  stands still. So the network doesn't compute an action: it has one output for each action that
+  occurs, as for choices, and the largest one wins.
+- **It answers sooner.** A key is pressed about two decisions after what it answers was seen. So
+  what was seen is put beside the keys of two decisions later.
+- **It makes no pauses.** Who paused saw the same before and after it, and a robot that rests where
+  it always sees the same rests for ever.
+
 >>> from gymnasium import spaces
 >>> generator = np.random.default_rng(0)
 >>> drives = []
@@ -25,7 +36,7 @@ seconds.
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -56,6 +67,15 @@ THIRDS = 3
 backwards, about still and forwards, or left, straight and right."""
 SMALL_ERROR = 0.1
 """Error, in units of a number's range, up to which its square counts; beyond it, its size."""
+MAX_KEY_ACTIONS = 32
+"""Different actions in drives up to which they are taken for those of keys."""
+MOMENTS_A_KEY_ACTION = 4
+"""Moments for each different action from which they are taken for those of keys."""
+REST = 1e-3
+"""Size below which all numbers of an action are, if it is called rest."""
+SAME_VIEW = 0.25
+"""Distance of two moments' readings, in units of their range (the root of the mean square), up to
+which a person who paused between them is said to have seen the same."""
 DISCOUNT = 0.98
 """Worth of a reward a decision later, compared with now."""
 STILL_SHARE = 0.98
@@ -105,11 +125,6 @@ class DriveData:
     def __len__(self) -> int:
         return len(self.actions) if self.is_shown is None else int(self.is_shown.sum())
 
-    def shown(self, rows: Array) -> Array:
-        """Return the rows of the moments to learn from, of (n, ...) or (n + 1, ...)."""
-        rows = rows[: len(self.actions)]
-        return rows if self.is_shown is None else rows[self.is_shown]
-
 
 @dataclass(frozen=True)
 class CloningResult:
@@ -125,7 +140,9 @@ class CloningResult:
     held_out: int
     """Count of held-out moments."""
     errors: tuple[tuple[int, float], ...]
-    """Gradient steps so far, and the error on held-out moments after them."""
+    """Gradient steps so far, and the error on held-out moments after them; where the network
+    chooses, it is the share of certainty, 0 to 1, that it has in other choices than the driver's.
+    """
     remarks: tuple[str, ...]
     """Sentences about what is wrong with the drives; empty if nothing is."""
 
@@ -139,13 +156,15 @@ def clone_drives(
     updates: int = UPDATES,
     block: int = DEFAULT_BLOCK,
     layers: Sequence[int] = LAYERS,
+    person_delay: int | None = None,
     on_error: Callable[[int, float], None] | None = None,
 ) -> CloningResult:
     """Return a network that drives as these drives do.
 
     Two networks learn. The first one doesn't see the held-out moments: it is measured, and says
     after how many steps its error on them was least. The second one learns from all moments, for as
-    many steps, and is the clone: to lose a drive of five is too much.
+    many steps, and is the clone: to lose a drive of five is too much. A network that chooses takes
+    all steps: one drive of five is too few to say when to stop, and it drove better so.
 
     The same drives and the same seed give the same network on the same machine.
 
@@ -158,47 +177,58 @@ def clone_drives(
         block: decisions in two seconds; if there are too few drives, blocks of this length are held
             out.
         layers: neurons of the hidden layers.
+        person_delay: decisions that pass until a person's keys answer what was seen, where they
+            make numbers; None for drives that no person drove. They are learned as they are.
         on_error: called with the count of steps so far and the error on held-out moments.
 
     Raises:
         SetupError: there is nothing to learn from, or such actions can't be learned.
     """
-    drives = [drive for drive in drives if len(drive)]
-    moments = sum(map(len, drives))
-    if moments < 2:
-        raise SetupError(f"expected drives of at least 2 decisions, got {moments}")
+    plain = ActorCritic(observation_space, action_space, layers)
+    key_actions = None if person_delay is None else _key_actions(plain, drives)
+    # of somebody with a stick, who steers all the time, a delay made clones worse
+    delay = 0 if key_actions is None else person_delay or 0
+    parts = [
+        _moments(drive, delay, None if person_delay is None else plain.size) for drive in drives
+    ]
+    parts = [part for part in parts if len(part.readings)]
+    count = sum(len(part.readings) for part in parts)
+    if count < 2:
+        raise SetupError(f"expected drives of at least 2 decisions, got {count}")
     generator = np.random.default_rng(checked_seed(seed))
-    readings = np.concatenate([drive.shown(drive.observations) for drive in drives])
-    readings = readings.astype(np.float32)
-    first = ActorCritic(observation_space, action_space, layers)
-    wanted = _as_targets(first, np.concatenate([drive.shown(drive.actions) for drive in drives]))
-    is_held_out = _held_out(drives, block, generator)
+    readings = np.concatenate([part.readings for part in parts]).astype(np.float32)
+    actions = np.concatenate([part.actions for part in parts])
+    first = ActorCritic(observation_space, action_space, layers, key_actions)
+    wanted = _as_targets(first, actions)
+    is_held_out = _held_out([len(part.readings) for part in parts], block, generator)
     seen, unseen = np.flatnonzero(~is_held_out), np.flatnonzero(is_held_out)
 
-    spans = _spans(wanted)
-    kinds = _kinds(first, wanted, spans)
+    done = _in_units(first, actions)
+    spans = _spans(done)
+    kinds = _kinds(first, done, spans)
     errors: list[tuple[int, float]] = []
     alike: list[float] = []
 
     def measure(update: int) -> None:
-        outputs = first.actor.forward(first.scaled(readings[unseen]))
-        error, _ = _loss(first, outputs, wanted[unseen])
-        errors.append((update, float(error)))
-        done = outputs.argmax(axis=1) if first.chooses else outputs
-        alike.append(_share_alike(_kinds(first, done, spans), kinds[unseen]))
+        errors.append((update, _error(first, readings[unseen], wanted[unseen])))
+        acts = _in_units(first, first.act(readings[unseen]))
+        alike.append(_share_alike(_kinds(first, acts, spans), kinds[unseen]))
         if on_error is not None:
             on_error(*errors[-1])
 
     first.draw(generator)
     _imitate(first, readings[seen], wanted[seen], updates, generator, measure)
-    best = min(range(len(errors)), key=lambda index: errors[index][1])
+    best = len(errors) - 1
+    if not first.chooses:
+        best = min(range(len(errors)), key=lambda index: errors[index][1])
     most_often, _ = Counter(map(tuple, kinds[seen].tolist())).most_common(1)[0]
 
-    network = ActorCritic(observation_space, action_space, layers)
+    network = ActorCritic(observation_space, action_space, layers, key_actions)
     network.draw(generator)
     _imitate(network, readings, wanted, errors[best][0], generator)
-    if all(drive.rewards is not None for drive in drives):
-        _judge(network, readings, np.concatenate(list(map(_worth, drives))), generator)
+    worth = [part.worth for part in parts if part.worth is not None]
+    if len(worth) == len(parts):
+        _judge(network, readings, np.concatenate(worth), generator)
     else:
         network.critic.parameters[:] = 0.0  # it knows nothing, so it says 0 and not any number
     return CloningResult(
@@ -207,17 +237,96 @@ def clone_drives(
         commonest=_share_alike(np.array([most_often]), kinds[unseen]),
         held_out=len(unseen),
         errors=tuple(errors),
-        remarks=tuple(_remarks(drives, network, readings, wanted)),
+        remarks=tuple(_remarks(len(parts), network, readings, done)),
     )
+
+
+class _Moments(NamedTuple):
+    """Moments of one drive to learn from."""
+
+    readings: Array
+    """(m, r)"""
+    actions: Array
+    """(m, numbers) or (m,) what the driver did, or began to do, on seeing them."""
+    worth: Floats | None
+    """(m,) discounted reward from each of them on."""
+
+
+def _moments(drive: DriveData, delay: int, sizes: Floats | None) -> _Moments:
+    """Return the moments of a drive to learn from.
+
+    Args:
+        drive: the drive.
+        delay: decisions between what was seen and the action that answers it.
+        sizes: (r,) largest value of each reading, to tell pauses; None keeps them.
+    """
+    delay = min(delay, len(drive.actions) // 2)  # something has to be left of a short drive
+    actions = drive.actions[delay:]
+    readings = drive.observations[: len(actions)]
+    is_shown = np.ones(len(actions), np.bool_)
+    if drive.is_shown is not None:
+        is_shown = drive.is_shown[delay:].astype(np.bool_)
+    if sizes is not None and actions.ndim == 2:
+        is_shown = is_shown & ~_is_pause(readings / sizes, np.abs(actions).max(axis=1) < REST)
+    worth = None if drive.rewards is None else _worth(drive.rewards)[: len(actions)][is_shown]
+    return _Moments(readings[is_shown], actions[is_shown], worth)
+
+
+def _is_pause(views: Array, is_rest: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """Return for each moment if the driver rested there, and then went on from the same view.
+
+    To rest at the end of a drive is no pause, nor is to wait until something is seen.
+    """
+    is_pause = np.zeros(len(is_rest), np.bool_)
+    went_on: Array | None = None
+    for moment in reversed(range(len(is_rest))):
+        if not is_rest[moment]:
+            went_on = views[moment]
+        elif went_on is not None:
+            distance = np.sqrt(np.mean((views[moment] - went_on) ** 2))
+            is_pause[moment] = distance < SAME_VIEW
+    return is_pause
+
+
+def _key_actions(network: ActorCritic, drives: Sequence[DriveData]) -> Array | None:
+    """Return the different actions of drives by keys, (k, n); None if they are not by keys."""
+    if network.chooses or not drives:
+        return None
+    shown = (slice(None) if drive.is_shown is None else drive.is_shown for drive in drives)
+    actions = np.concatenate(
+        [drive.actions[rows] for drive, rows in zip(drives, shown, strict=True)]
+    )
+    different: Array = np.unique(actions.astype(np.float32), axis=0)
+    most = min(MAX_KEY_ACTIONS, len(actions) // MOMENTS_A_KEY_ACTION)
+    return different if len(different) <= most else None
+
+
+def _in_units(network: ActorCritic, actions: Array) -> Array:
+    """Return actions (m, n) in units of their ranges, or as numbers of choices, (m,)."""
+    if not len(network.unit):
+        return actions.astype(np.int64).ravel()
+    unit = np.where(network.unit > 0.0, network.unit, 1.0)
+    numbers: Array = actions.reshape(len(actions), -1) / unit
+    return numbers.astype(np.float32)
 
 
 def _as_targets(network: ActorCritic, actions: Array) -> Array:
     """Return what the actor should give: numbers in units of their range, or indices of choices."""
+    if network.key_actions is not None:
+        is_done = (actions.astype(np.float32)[:, None] == network.key_actions).all(axis=2)
+        indices: Array = is_done.argmax(axis=1)
+        return indices
+    targets = _in_units(network, actions)
+    return targets - network.first_choice if network.chooses else targets
+
+
+def _error(network: ActorCritic, readings: Array, wanted: Array) -> float:
+    """Return a number that says how wrong the actor is, for people to see it fall."""
+    outputs = network.actor.forward(network.scaled(readings))
     if network.chooses:
-        return actions.astype(np.int64).ravel() - network.first_choice
-    unit = np.where(network.unit > 0.0, network.unit, 1.0)
-    targets: Array = actions.reshape(len(actions), -1) / unit
-    return targets.astype(np.float32)
+        # not the loss: it grows with each moment in which a network that has become sure errs
+        return float(1.0 - _chances(outputs)[np.arange(len(wanted)), wanted].mean())
+    return float(_loss(network, outputs, wanted)[0])
 
 
 def _imitate(
@@ -254,8 +363,7 @@ def _loss(network: ActorCritic, outputs: Floats, wanted: Array) -> tuple[np.floa
     if network.chooses:
         # Softmax makes probabilities of any numbers, and the loss is how surprised one is by the
         # driver's choice. Its slope is simply the probability, less 1 for what was chosen.
-        powers = np.exp(outputs - outputs.max(axis=1, keepdims=True))
-        chances = powers / powers.sum(axis=1, keepdims=True)
+        chances = _chances(outputs)
         chosen = np.arange(count), wanted
         surprise = -np.log(np.maximum(chances[chosen], 1e-12)).mean()
         chances[chosen] -= 1.0
@@ -270,6 +378,13 @@ def _loss(network: ActorCritic, outputs: Floats, wanted: Array) -> tuple[np.floa
     loss = np.where(size < SMALL_ERROR, 0.5 * error**2 / SMALL_ERROR, size - 0.5 * SMALL_ERROR)
     slope = np.clip(error / SMALL_ERROR, -1.0, 1.0)
     return loss.mean(), (slope / error.size).astype(np.float32)
+
+
+def _chances(outputs: Floats) -> Floats:
+    """Return the probability of each choice, (n, choices): the softmax of the outputs."""
+    powers: Floats = np.exp(outputs - outputs.max(axis=1, keepdims=True))
+    chances: Floats = powers / powers.sum(axis=1, keepdims=True)
+    return chances
 
 
 def _judge(
@@ -291,30 +406,26 @@ def _judge(
     network.critic.biases[-1] += middle
 
 
-def _worth(drive: DriveData) -> Floats:
-    """Return the discounted reward from each moment on that is learned from."""
-    assert drive.rewards is not None  # noqa: S101 - the caller has looked
-    worth = np.zeros(len(drive.actions), np.float32)
+def _worth(rewards: Array) -> Floats:
+    """Return the discounted reward from each moment of a drive on."""
+    worth = np.zeros(len(rewards), np.float32)
     later = 0.0
     for moment in reversed(range(len(worth))):
-        later = float(drive.rewards[moment]) + DISCOUNT * later
+        later = float(rewards[moment]) + DISCOUNT * later
         worth[moment] = later
-    return drive.shown(worth)
+    return worth
 
 
 def _held_out(
-    drives: Sequence[DriveData], block: int, generator: np.random.Generator
+    lengths: Sequence[int], block: int, generator: np.random.Generator
 ) -> npt.NDArray[np.bool_]:
-    """Return for each moment if it is held out; some are, and some are not."""
-    if len(drives) >= MIN_DRIVES_TO_HOLD_OUT:
-        blocks = [len(drive) for drive in drives]
-    else:
+    """Return for each moment of drives of these lengths if it is held out; some are, some not."""
+    blocks = list(lengths)
+    if len(lengths) < MIN_DRIVES_TO_HOLD_OUT:
         # of one short drive, too, something has to be left on both sides
-        block = max(1, min(block, sum(map(len, drives)) // 2))
+        block = max(1, min(block, sum(lengths) // 2))
         blocks = [
-            min(block, len(drive) - start)
-            for drive in drives
-            for start in range(0, len(drive), block)
+            min(block, length - start) for length in lengths for start in range(0, length, block)
         ]
     count = max(1, round(HELD_OUT_SHARE * len(blocks)))
     chosen = np.zeros(len(blocks), np.bool_)
@@ -331,19 +442,19 @@ def _spans(wanted: Array) -> tuple[Array, Array]:
     return np.minimum(wanted.min(axis=0), 0.0), np.maximum(wanted.max(axis=0), 0.0)
 
 
-def _kinds(network: ActorCritic, targets: Array, spans: tuple[Array, Array]) -> Array:
+def _kinds(network: ActorCritic, done: Array, spans: tuple[Array, Array]) -> Array:
     """Return the third of its range that each number lies in, (n, numbers), or the choice, (n, 1).
 
     Args:
-        network: says whether it chooses.
-        targets: as :func:`_as_targets` gives them; beyond the range counts as at its end.
+        network: says whether actions have numbers with ranges.
+        done: actions as :func:`_in_units` gives them; beyond the range counts as at its end.
         spans: as :func:`_spans` gives them.
     """
-    if network.chooses:
-        return targets[:, None]
+    if not len(network.unit):
+        return done[:, None]
     low, high = spans
     width = np.where(high > low, high - low, 1.0)
-    share = (np.clip(targets, low, high) - low) / width
+    share = (np.clip(done, low, high) - low) / width
     kinds: Array = np.minimum((THIRDS * share).astype(np.int64), THIRDS - 1)
     return kinds
 
@@ -353,18 +464,16 @@ def _share_alike(kinds: Array, others: Array) -> float:
     return float((kinds == others).all(axis=1).mean())
 
 
-def _remarks(
-    drives: Sequence[DriveData], network: ActorCritic, readings: Array, wanted: Array
-) -> list[str]:
-    """Return a sentence for each fault of the drives."""
-    remarks = [ONE_DRIVE] if len(drives) == 1 else []
-    if network.chooses:
-        if (wanted == wanted[0]).all():
+def _remarks(count: int, network: ActorCritic, readings: Array, done: Array) -> list[str]:
+    """Return a sentence for each fault of so many drives."""
+    remarks = [ONE_DRIVE] if count == 1 else []
+    if not len(network.unit):
+        if (done == done[0]).all():
             remarks.append(ONE_CHOICE)
-    elif np.mean(np.abs(wanted).max(axis=1) < 1e-3) >= STILL_SHARE:
+    elif np.mean(np.abs(done).max(axis=1) < REST) >= STILL_SHARE:
         remarks.append(STOOD_STILL)
     if (
-        _contradiction(network.scaled(readings), _kinds(network, wanted, _spans(wanted)))
+        _contradiction(network.scaled(readings), _kinds(network, done, _spans(done)))
         > CONTRADICTION_SHARE
     ):
         remarks.append(CONTRADICTION)

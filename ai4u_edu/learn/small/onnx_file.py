@@ -17,6 +17,9 @@ and the last matrix, and the file has nothing but layers:
 
     readings -> Flatten -> Concat -> Gemm -> Tanh -> Gemm -> Tanh -> Gemm -> Max, Min -> action
                                   -> Gemm -> Tanh -> Gemm -> Tanh -> Gemm -> critic_value
+
+A network that chooses has ``ArgMax`` in place of ``Max`` and ``Min``: the number of the largest
+output. If it chooses among the actions of keys, ``Gather`` takes the action from a list of them.
 """
 
 import hashlib
@@ -56,6 +59,9 @@ INT_ATTRIBUTE = 2
 """ONNX's number for the type of an option that is a whole number."""
 ACTOR, CRITIC = "actor", "critic"
 """Beginnings of the names of the layers' numbers, as in ``actor.0.weight``."""
+
+KEY_ACTIONS = "key_actions"
+"""Name of the actions that a network chooses from."""
 
 Field = tuple[int, "int | str | bytes"]
 """Number and value of a field. Bytes may be those of another message."""
@@ -116,7 +122,9 @@ def read_network(data: bytes, agent: BasicAgent) -> ActorCritic:
         numbers = dict(map(_read_array, (part for field, part in _fields(graph) if field == 5)))
         depth = sum(name.startswith(f"{ACTOR}.") for name in numbers) // 2
         layers = [len(numbers[f"{ACTOR}.{layer}.bias"]) for layer in range(depth - 1)]
-        network = ActorCritic(Observer(agent, "flat").space, action_space_of(agent), layers)
+        network = ActorCritic(
+            Observer(agent, "flat").space, action_space_of(agent), layers, numbers.get(KEY_ACTIONS)
+        )
         for name, mlp in ((ACTOR, network.actor), (CRITIC, network.critic)):
             for layer, (weights, biases) in enumerate(zip(mlp.weights, mlp.biases, strict=True)):
                 _fill(weights, numbers[f"{name}.{layer}.weight"])
@@ -158,12 +166,17 @@ def _graph(
     _add_layers(nodes, arrays, ACTOR, last, _scaled_in(network, network.actor, unit))
     _add_layers(nodes, arrays, CRITIC, VALUE_OUTPUT, _scaled_in(network, network.critic))
     if network.chooses:
-        best = f"{output}/index" if network.first_choice else output
+        is_choice = network.key_actions is None and not network.first_choice
+        best = output if is_choice else f"{output}/index"
         nodes.append(_node("ArgMax", [last], best, axis=1, keepdims=0))
-        if network.first_choice:
+        if network.key_actions is not None:
+            arrays.append(_array(KEY_ACTIONS, network.key_actions))
+            nodes.append(_node("Gather", [KEY_ACTIONS, best], output, axis=0))
+        elif network.first_choice:
             arrays.append(_array("first choice", np.array(network.first_choice)))
             nodes.append(_node("Add", [best, "first choice"], output))
-        action = _port(output, INT64, ())
+        is_number = network.key_actions is not None
+        action = _port(output, *((FLOAT, network.low.shape) if is_number else (INT64, ())))
     else:
         arrays += [_array("low", network.low), _array("high", network.high)]
         nodes.append(_node("Max", [last, "low"], f"{ACTOR}/not below"))

@@ -41,12 +41,15 @@ from ai4u_edu.base.seeding import MAX_TRAINING_SEED, checked_seed
 from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import LAYERS, ActorCritic
 from ai4u_edu.learn.small.easy_starts import EasyStarts
-from ai4u_edu.learn.small.neural_network import Adam, Floats, clip_norm
+from ai4u_edu.learn.small.neural_network import Adam, Floats, clip_norm, parameter_count
 from ai4u_edu.scenes import Scene
 
 Array = npt.NDArray[Any]
 Flags = npt.NDArray[np.bool_]
 
+STRONGER_KEYS_LATER = 3.0
+"""Distance by which the outputs for keys at full strength begin below those of the keys: about
+one decision of twenty tries one."""
 FIRST_SEED = 2**40
 """Smallest seed of an episode to learn in; small ones are left for evaluations."""
 
@@ -120,7 +123,8 @@ class Ppo:
         seed: of the network, of what is tried out, and of the worlds.
         agent: id of the agent that learns; left out, the one that acts first.
         begin_with: network to improve, such as a clone; its layers hold. Left out, a random one.
-            Less is tried out then (``first_spread_after_clone``).
+            Less is tried out then (``first_spread_after_clone``). A clone of drives by keys goes on
+            choosing among their actions, and among these at full strength.
         reward_weights: factor of each reward term by its name; 1 for one that is left out. They
             change what is learned from, and nothing in the world.
         worlds: in which it learns, with as many agents that learn as the settings have worlds; left
@@ -163,7 +167,9 @@ class Ppo:
             )
             self.network.draw(self.generator)
         else:
-            self.network = _checked_network(begin_with, env.observation_space, env.action_space)
+            self.network = _with_stronger_keys(
+                _checked_network(begin_with, env.observation_space, env.action_space)
+            )
             self.settings = replace(self.settings, layers=begin_with.layers)
             spread = self.settings.first_spread_after_clone
         self.network.log_spread[:] = math.log(spread)
@@ -228,6 +234,12 @@ class Ppo:
         )
         log_chances, _, _ = _log_chances(network, outputs, taken)
         return Experience(inputs, taken, log_chances, gained, gained + values[:-1])
+
+    def choose_among(self, key_actions: Array) -> None:
+        """Begin with a network that chooses among these actions, (k, n); its weights are zeros."""
+        spaces_of = self.network.observation_space, self.network.action_space
+        self.network = ActorCritic(*spaces_of, self.network.layers, key_actions)
+        self.optimizer = Adam(self.network.parameters, self.settings.rate, epsilon=1e-5)
 
     def update(self, experience: Experience) -> None:
         """Improve actor and critic by what was driven: steps 3 and 4 of a round."""
@@ -407,6 +419,36 @@ def _checked_network(
             f"{action_space}, got one for {own[0]} and {own[1]}"
         )
     return network.copy()
+
+
+def _with_stronger_keys(network: ActorCritic) -> ActorCritic:
+    """Return the network, which can also choose the actions of its keys at full strength.
+
+    Keys often move a robot with less than its full strength, and who learns for rewards should be
+    able to get faster than the person. At first these actions are improbable.
+    """
+    keys = network.key_actions
+    if keys is None:
+        return network
+    strength = np.abs(keys / np.where(network.unit > 0.0, network.unit, 1.0)).max(axis=1)
+    strong = np.clip(keys / np.maximum(strength, 1e-6)[:, None], network.low, network.high)
+    known = {tuple(key) for key in keys.tolist()}
+    new = [row for row, key in enumerate(strong.tolist()) if tuple(key) not in known]
+    other = ActorCritic(
+        network.observation_space,
+        network.action_space,
+        network.layers,
+        np.concatenate([keys, strong[new]]),
+    )
+    other.middle, other.size = network.middle, network.size
+    other.critic.parameters[:] = network.critic.parameters
+    hidden = parameter_count(network.actor.sizes[:-1])
+    other.actor.parameters[:hidden] = network.actor.parameters[:hidden]
+    rows = [*range(len(keys)), *new]
+    other.actor.weights[-1][:] = network.actor.weights[-1][rows]
+    other.actor.biases[-1][:] = network.actor.biases[-1][rows]
+    other.actor.biases[-1][len(keys) :] -= STRONGER_KEYS_LATER
+    return other
 
 
 def _checked_weights(weights: Mapping[str, float], agent: BasicAgent) -> dict[str, float]:

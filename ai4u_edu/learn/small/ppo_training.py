@@ -203,6 +203,7 @@ class PpoTraining:
                 mean=optimizer.mean,
                 square=optimizer.square,
                 league=np.array([each.network.parameters for each in earlier if each.network]),
+                key_actions=np.array([] if network.key_actions is None else network.key_actions),
             )
 
     @classmethod
@@ -240,7 +241,11 @@ class PpoTraining:
         return training
 
     def _restore(self, state: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:
-        ppo, network, optimizer = self.ppo, self.ppo.network, self.ppo.optimizer
+        ppo = self.ppo
+        keys = arrays.get("key_actions")  # missing in files of earlier versions
+        if keys is not None and keys.size:  # it began with a clone that chooses among them
+            ppo.choose_among(keys)
+        network, optimizer = ppo.network, ppo.optimizer
         network.parameters[:] = arrays["parameters"]
         network.middle[:], network.size[:] = arrays["middle"], arrays["size"]
         self.best = network.copy()

@@ -147,6 +147,101 @@ def test_a_reading_that_never_changed_is_left_out() -> None:
     assert np.array_equal(*network.act(seen))
 
 
+LIGHT = spaces.Box(-1, 1, (1,))
+KEYS = f32([[-0.4, 0], [0.4, 0], [0, 0.5]])
+"""Left, right, and straight on."""
+
+
+def key_drives(count: int = 5, lag: int = 0, pause: int = 0) -> list[DriveData]:
+    """Drives by keys towards a light whose bearing is the reading: left, right, or straight on.
+
+    Args:
+        count: of drives.
+        lag: decisions between what is seen and the key that answers it.
+        pause: decisions in the middle of a drive in which nothing is pressed nor moves.
+    """
+    generator = np.random.default_rng(0)
+    drives = []
+    for _ in range(count):
+        seen = np.cumsum(generator.uniform(-0.3, 0.3, (60, 1)), axis=0)
+        seen = np.clip(seen + generator.uniform(-1, 1), -1, 1)
+        wanted = np.where(seen < -0.2, KEYS[0], np.where(seen > 0.2, KEYS[1], KEYS[2]))
+        actions = np.concatenate([np.zeros((lag, 2)), wanted[: 60 - lag]])
+        seen = np.insert(seen, [30] * pause, seen[30], axis=0)
+        actions = np.insert(actions, [30] * pause, 0.0, axis=0)
+        drives.append(DriveData(f32(seen), f32(actions)))
+    return drives
+
+
+def clone_of_person(drives: Sequence[DriveData], delay: int = 0) -> CloningResult:
+    space = spaces.Box(f32([-1, 0]), f32([1, 1]))
+    return clone_drives(drives, LIGHT, space, updates=1000, person_delay=delay)
+
+
+BEARINGS = f32([[-0.9], [-0.4], [0], [0.4], [0.9]])
+ANSWERS = KEYS[[0, 0, 2, 1, 1]]
+
+
+def test_a_clone_of_key_drives_does_nothing_but_what_keys_do() -> None:
+    clone = clone_of_person(key_drives())
+    every = np.linspace(-1, 1, 500, dtype=np.float32)[:, None]
+    assert np.array_equal(np.unique(clone.network.act(every), axis=0), np.unique(KEYS, axis=0))
+    assert np.array_equal(clone.network.act(BEARINGS), ANSWERS)
+    assert clone.alike > 0.9
+    assert 0.0 < clone.errors[-1][1] < clone.errors[0][1] < 1.0
+
+
+def test_a_stick_may_mean_any_number() -> None:
+    seen = np.random.default_rng(0).uniform(-1, 1, (5, 60, 1)).astype(np.float32)
+    shown = [DriveData(rows, np.concatenate([0.5 * rows, 0 * rows], axis=1)) for rows in seen]
+    actions = clone_of_person(shown, delay=2).network.act(BEARINGS)
+    np.testing.assert_allclose(actions[:, 0], 0.5 * BEARINGS[:, 0], atol=0.1)
+
+
+def test_the_delay_of_a_person_is_not_learned() -> None:
+    late = key_drives(lag=2)
+    assert clone_of_person(late).alike < clone_of_person(late, delay=2).alike
+    assert np.array_equal(clone_of_person(late, delay=2).network.act(BEARINGS), ANSWERS)
+
+
+def test_pauses_of_a_person_are_not_learned() -> None:
+    for drive in (paused := key_drives(pause=40)):
+        drive.observations[30:71] = 0.8  # most of what it did there was to rest
+    clone = clone_of_person(paused)
+    assert np.array_equal(clone.network.act(f32([[0.8]])), KEYS[[1]])
+    assert clone.held_out == 60
+
+
+def test_to_stop_at_the_end_is_learned() -> None:
+    shown = [
+        DriveData(
+            np.concatenate([drive.observations, np.full((20, 1), 0.8, np.float32)]),
+            np.concatenate([drive.actions, np.zeros((20, 2), np.float32)]),
+        )
+        for drive in key_drives()
+    ]
+    assert clone_of_person(shown).network.act(f32([[0.8]])).tolist() == [[0, 0]]
+
+
+def test_to_wait_until_something_is_seen_is_learned() -> None:
+    # a light that is red or green: whoever waits sees something else afterwards
+    light = np.repeat([-1.0, 1.0], 20)[:, None]
+    drive = DriveData(f32(light), np.where(light > 0, KEYS[2], 0.0).astype(np.float32))
+    actions = clone_of_person([drive] * 5).network.act(f32([[-1], [1]]))
+    assert actions.tolist() == [[0, 0], KEYS[2].tolist()]
+
+
+def test_drives_of_nobody_are_learned_as_they_are() -> None:
+    space = spaces.Box(f32([-1, 0]), f32([1, 1]))
+    network = clone_drives(key_drives(), LIGHT, space, updates=UPDATES).network
+    assert network.key_actions is None
+
+
+def test_a_short_drive_of_a_person_is_enough() -> None:
+    short = DriveData(f32([[-0.5], [-0.5], [0.5]]), KEYS[[0, 0, 1]])
+    assert clone_of_person([short] * 5, delay=2).network.act(BEARINGS).shape == (5, 2)
+
+
 @pytest.mark.parametrize("length", [0, 1])
 def test_too_little_to_learn_from(length: int) -> None:
     with pytest.raises(SetupError, match=f"at least 2 decisions, got {length}"):

@@ -25,15 +25,20 @@ from ai4u_edu.learn.small.onnx_file import network_bytes, read_network, write_ne
 from ai4u_edu.lessons.exercises.lesson_12 import layers_of
 
 ABOUT = {"scene": "box_chase", "algorithm": "ppo", "seed": 5, "steps": 1000}
-SCENES = ("box_chase", "parking", "grid_world")
-"""Rays and the last action; numbers with units; a grid of whole numbers, and choices."""
+KEYS = "box_chase, by keys"
+SCENES = ("box_chase", KEYS, "parking", "grid_world")
+"""Rays and the last action, of any numbers and of four keys; numbers with units; a grid of whole
+numbers, and choices."""
 
 
 def made(scene: str) -> tuple[SceneEnv, ActorCritic]:
     """Return an environment, and a network with large weights, so that actions saturate too."""
-    env = SceneEnv(scene, observation="flat")
+    env = SceneEnv(scene.partition(",")[0], observation="flat")
     generator = np.random.default_rng(0)
-    network = ActorCritic(env.observation_space, env.action_space, [16, 16])
+    keys = np.array([[0, -0.4, 0, 0], [0, 0, 0, 0], [0, 0.4, 0, 0], [0.4, 0, 0, 0]])
+    network = ActorCritic(
+        env.observation_space, env.action_space, [16, 16], keys if scene == KEYS else None
+    )
     network.draw(generator)
     network.parameters *= 3.0
     network.actor.weights[-1][:] *= 50.0
@@ -117,11 +122,11 @@ def test_the_file_says_where_it_comes_from(tmp_path: Path) -> None:
     assert TRAINING_KEY not in json.dumps(about)
 
 
-@pytest.mark.parametrize("scene", ["box_chase", "grid_world"])
+@pytest.mark.parametrize("scene", ["box_chase", KEYS, "grid_world"])
 def test_a_brain_drives_with_it(scene: str, tmp_path: Path) -> None:
     env, network = made(scene)
     path = write_network(network, env.agent, ABOUT, tmp_path / "a.onnx")
-    other = SceneEnv(scene, observation="flat")
+    other = SceneEnv(scene.partition(",")[0], observation="flat")
     agent, observer = other.agent, other.observer
     agent.use_brain(trained_brain(str(path)))
     other.sim.reset(1)

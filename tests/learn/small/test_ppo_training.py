@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.ppo import PpoSettings
 from ai4u_edu.learn.small.ppo_training import PolicyCheck, PpoTraining
 from tests.learn.small.corridor import FEW, corridor
@@ -120,6 +121,39 @@ def test_a_training_that_began_with_a_network_of_other_layers_goes_on(tmp_path: 
     training = PpoTraining(corridor(), FEW, begin_with=clone)
     training.save(tmp_path / "state.npz")
     assert PpoTraining.resume(tmp_path / "state.npz", corridor()).ppo.network.layers == (8,)
+
+
+def test_a_training_that_began_with_a_clone_of_key_drives_goes_on(tmp_path: Path) -> None:
+    plain = PpoTraining(corridor(), FEW).ppo.network
+    keys = np.array([[0.0, 0, 0, 0], [0.5, 0, 0, 0], [0, 0.5, 0, 0]])
+    clone = ActorCritic(plain.observation_space, plain.action_space, (8,), keys)
+    clone.draw(np.random.default_rng(0))
+    training = PpoTraining(corridor(), FEW, begin_with=clone)
+    training.learn(64)
+    assert not np.array_equal(training.ppo.network.parameters, clone.parameters)
+    training.save(tmp_path / "state.npz")
+    other = PpoTraining.resume(tmp_path / "state.npz", corridor())
+    seen = np.random.default_rng(1).normal(size=(20, len(clone.middle)))
+    actions = other.ppo.network.act(seen)
+    assert np.array_equal(actions, training.ppo.network.act(seen))
+    assert {tuple(action) for action in actions.tolist()} <= set(map(tuple, keys.tolist()))
+    other.learn(128)
+    assert other.ppo.decisions == 128
+
+
+def test_a_practice_makes_the_keys_of_a_clone_stronger() -> None:
+    plain = PpoTraining(corridor(), FEW).ppo.network
+    keys = np.array([[0.0, 0, 0, 0], [0.25, 0.125, 0, 0], [1, 0, 0, 0]])
+    clone = ActorCritic(plain.observation_space, plain.action_space, (8,), keys)
+    clone.draw(np.random.default_rng(0))
+    network = PpoTraining(corridor(), FEW, begin_with=clone).ppo.network
+    assert network.key_actions is not None
+    assert network.key_actions.tolist() == [*keys.tolist(), [1, 0.5, 0, 0]]
+    seen = np.random.default_rng(1).normal(size=(20, len(clone.middle)))
+    assert np.array_equal(network.act(seen), clone.act(seen))
+    assert np.array_equal(network.values(seen), clone.values(seen))
+    again = PpoTraining(corridor(), FEW, begin_with=network).ppo.network
+    assert np.array_equal(again.parameters, network.parameters)
 
 
 def test_an_episode_of_a_check_is_cut_off() -> None:
