@@ -1,9 +1,11 @@
 """Drives in all scenes of the library, kept as files to compare every later version with.
 
-``python -m tests.recording.kept`` records them again. That is needed only after a change that is
-meant to change what happens in a scene: it breaks the recordings of everybody else, too.
+``python -m tests.recording.kept SCENE`` records those of a scene, without a name those of all. That
+is needed for a new scene, and after a change that is meant to change what happens in one: it breaks
+the recordings of everybody else, too.
 """
 
+import argparse
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -71,8 +73,13 @@ def record(name: str) -> Episode:
 
 
 if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scenes", nargs="*", choices=[[], *Scene.names()], metavar="SCENE")
+    scenes = parser.parse_args().scenes or Scene.names()
     FOLDER.mkdir(exist_ok=True)
     for path in FOLDER.glob("*.episode"):
-        path.unlink()
+        if path.stem not in KEPT:
+            path.unlink()
     for name in KEPT:
-        print(name, record(name).save(path_of(name)).stat().st_size)
+        if name.rpartition("-")[0] in scenes:
+            print(name, record(name).save(path_of(name)).stat().st_size)

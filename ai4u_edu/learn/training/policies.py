@@ -29,6 +29,7 @@ from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.learn.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.learn.training.prepare import prepare
 from ai4u_edu.learn.training.run import Config, run_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.program import Program, ProgramError, obstacle_in
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import is_serializable
@@ -96,7 +97,7 @@ def entrant(spec: str, scene: str = "") -> Entrant:
         return Entrant(spec, lambda agent: brain_at(spec, **_rhythm(agent)), is_remote=True)
     if path.is_dir() or path.suffix == ".zip":
         return _model(path)
-    file, _, name = spec.rpartition(":")
+    file, _colon, name = spec.rpartition(":")
     if file.endswith(".py"):
         return Entrant(name, _of_file(Path(file), name))
     controllers = {
@@ -321,7 +322,13 @@ def program_text(path: Path) -> str | None:
         with tokenize.open(path) as file:
             source = file.read()
     except (OSError, SyntaxError, ValueError) as error:
-        raise SetupError(f"{path}: expected a text of Python in UTF-8: {error}") from error
+        raise SetupError(
+            _(
+                "{path}: expected a text of Python in UTF-8: {problem}",
+                path=str(path),
+                problem=str(error),
+            )
+        ) from error
     return None if obstacle_in(source) else source
 
 
