@@ -11,6 +11,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Sensor
 from ai4u_edu.blocks.brains.network import Network
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 Baseline = Mapping[str, npt.NDArray[Any]]
@@ -34,7 +35,7 @@ def mean_of(percepts: Iterable[Mapping[str, Any]]) -> dict[str, npt.NDArray[Any]
     """
     rows = list(percepts)
     if not rows:
-        raise SetupError("expected at least one percept for a baseline, got none")
+        raise SetupError(_("expected at least one percept for a baseline, got none"))
     return {
         key: _middle(np.stack([np.asarray(row[key]) for row in rows]))
         for key, value in rows[0].items()

@@ -13,6 +13,7 @@ from ai4u_edu.explain.live import MIN_MEAN_PERCEPTS, middle_of_infos, parts_of
 from ai4u_edu.explain.occlusion import occlusion
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.sentence import Axis, axes_of, sentence
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot import AgentState
 
 
@@ -68,7 +69,7 @@ def compare(
     """
     percepts = [agent.percept for agent in agents]
     if not percepts:
-        raise SetupError("expected an episode with at least one decision, got none")
+        raise SetupError(_("expected an episode with at least one decision, got none"))
     asked = first or second
     keys = list(agents[0].action if asked is None else asked.answer(percepts[0]))
     did = Policy(_RecordedActions(agents, keys))

@@ -11,6 +11,7 @@ from ai4u_edu.explain.baseline import Baseline, mean_of
 from ai4u_edu.explain.groups import Group, Kind
 from ai4u_edu.explain.occlusion import Occlusion, occlusion
 from ai4u_edu.explain.policy import Floats, Policy, PolicyLike
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode, Replay
 
 DEFAULT_TOLERANCE = 0.2
@@ -74,8 +75,12 @@ def first_disagreement(
     others = np.stack([two.decide(percept) for percept in percepts])
     if actions.shape != others.shape:
         raise SetupError(
-            f"expected two policies for the same actuators, got actions of {actions.shape[1]} and "
-            f"{others.shape[1]} numbers"
+            _(
+                "expected two policies for the same actuators, got actions of {shape} and "
+                "{shape2} numbers",
+                shape=actions.shape[1],
+                shape2=others.shape[1],
+            )
         )
     apart = np.flatnonzero((np.abs(actions - others) > tolerance).any(axis=1))
     if not len(apart):
@@ -101,5 +106,5 @@ def percepts_of(episode: Episode | Sequence[Percept], agent: str | None = None) 
     else:
         found = list(episode)
     if not found:
-        raise SetupError("expected an episode with at least one decision, got none")
+        raise SetupError(_("expected an episode with at least one decision, got none"))
     return found

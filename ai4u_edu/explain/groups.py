@@ -9,6 +9,8 @@ import numpy.typing as npt
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import CodeLegend, RayPicture, SpotPicture
+from ai4u_edu.locale import Text, join
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot.block_info import SensorInfo, block_info_of, sensor_pictures_of
 
 Kind = Literal["slot", "sensor"]
@@ -60,7 +62,8 @@ def groups_by(kind: Kind, percept: Mapping[str, Any], keys: Iterable[str]) -> li
         SetupError: there is no such kind.
     """
     if kind not in KINDS:
-        raise SetupError(f"groups: {suggest(str(kind), KINDS)}; expected one of {KINDS}")
+        hint = suggest(str(kind), KINDS)
+        raise SetupError(_("groups: {hint}; expected one of {kinds}", hint=hint, kinds=str(KINDS)))
     return slots_of(percept, keys) if kind == "slot" else sensors_of(percept, keys)
 
 
@@ -112,13 +115,15 @@ def _parts(
     if spots is not None and not info.slots and len(spots.lit) == count:
         seen = info.groups[0] if info.groups else "something"
         return [
-            _group(f"eye {index + 1}", info, [index], seen if is_lit else "nothing")
+            _group(
+                _("eye {number}", number=index + 1), info, [index], seen if is_lit else "nothing"
+            )
             for index, is_lit in enumerate(spots.lit)
         ]
     names = info.slot_words or tuple(map(str, range(count)))
     return [
         _group(
-            f"{info.key}: {name}" if count > 1 else info.key,
+            join([info.key, name], ": ") if count > 1 else info.key,
             info,
             [index],
             says=_says(info, name, index, percept),
@@ -138,38 +143,55 @@ def _says(info: SensorInfo, name: str, index: int, percept: Mapping[str, Any]) -
     match info.block:
         case "BearingSensor" | "OrientationSensor" if target and name in _SIDES:
             is_seen = info.low[index] <= value and abs(value) <= 1
-            return f"the {target} is {_side(name, value)}" if is_seen else ""
+            return _side(name, value, target) if is_seen else ""
         case "BearingSensor" | "OrientationSensor" if target and name == "distance" and high > 0:
-            return f"the {target} is {_thirds(value / high, 'near', 'not far', 'far away')}"
+            return _third(value / high, _DISTANCES, target)
         case "PositionSensor" if target and name in ("forward", "left"):
             length = float(np.hypot(now[0], now[1])) or 1.0
             side = "ahead?" if name == "forward" else "left?"
-            return f"the {target} is {_side(side, value / length)}"
+            return _side(side, value / length, target)
         case "HeadingSensor" if name in _SIDES:
-            return f"it faces {_side(name, value)}"
+            return _side(name, value)
         case "HomeostaticSensor" if high > info.low[index]:
             share = (value - info.low[index]) / (high - info.low[index])
-            return f"its {name} is {_thirds(share, 'low', 'in the middle', 'high')}"
-        case _:
+            return _third(share, _LEVELS, name)
+        case _other:
             return ""
 
 
 _SIDES = {
-    "ahead?": ("ahead of it", "behind it", "beside it"),
-    "left?": ("to its left", "to its right", "neither to its left nor to its right"),
-    "east?": ("east", "west", "neither east nor west"),
-    "north?": ("north", "south", "neither north nor south"),
+    "ahead?": (
+        _("the {thing} is ahead of it"),
+        _("the {thing} is behind it"),
+        _("the {thing} is beside it"),
+    ),
+    "left?": (
+        _("the {thing} is to its left"),
+        _("the {thing} is to its right"),
+        _("the {thing} is neither to its left nor to its right"),
+    ),
+    "east?": (_("it faces east"), _("it faces west"), _("it faces neither east nor west")),
+    "north?": (_("it faces north"), _("it faces south"), _("it faces neither north nor south")),
 }
-"""Words for a direction's sine or cosine above 0, below 0 and near 0, by the number's name."""
+"""Clauses for a direction's sine or cosine above 0, below 0 and near 0, by the number's name."""
+_DISTANCES = (
+    _("the {thing} is near"),
+    _("the {thing} is not far"),
+    _("the {thing} is far away"),
+)
+_LEVELS = _("its {thing} is low"), _("its {thing} is in the middle"), _("its {thing} is high")
 
 
-def _side(name: str, value: float) -> str:
+def _side(name: str, value: float, thing: str = "") -> str:
     above, below, neither = _SIDES[name]
-    return neither if abs(value) < MIN_SIDE else above if value > 0 else below
+    words = neither if abs(value) < MIN_SIDE else above if value > 0 else below
+    return Text(words.msgid, {"thing": thing})
 
 
-def _thirds(share: float, low: str, middle: str, high: str) -> str:
-    return low if share < 1 / 3 else middle if share < 2 / 3 else high
+def _third(share: float, thirds: tuple[Text, Text, Text], thing: str) -> str:
+    low, middle, high = thirds
+    words = low if share < 1 / 3 else middle if share < 2 / 3 else high
+    return Text(words.msgid, {"thing": thing})
 
 
 def _rays(info: SensorInfo, picture: RayPicture, planes: int) -> list[Group]:
@@ -189,12 +211,17 @@ def _ray_names(info: SensorInfo, count: int) -> list[tuple[str, int]]:
         rows, columns = info.legend.shape
         one = rows == 1
         return [
-            (f"ray {column + 1}" + ("" if one else f" of row {row + 1}"), row * columns + column)
+            (
+                _("ray {number}", number=column + 1)
+                if one
+                else _("ray {number} of row {row}", number=column + 1, row=row + 1),
+                row * columns + column,
+            )
             for row in range(rows)
             for column in range(columns)
         ]
     # a fan reads its rightmost ray first
-    return [(f"ray {count - ray}", ray) for ray in reversed(range(count))]
+    return [(_("ray {number}", number=count - ray), ray) for ray in reversed(range(count))]
 
 
 def _numbers(info: SensorInfo, ray: int, count: int, planes: int) -> list[int]:
@@ -207,14 +234,14 @@ def _numbers(info: SensorInfo, ray: int, count: int, planes: int) -> list[int]:
 def _wholes(info: SensorInfo, picture: RayPicture | None) -> list[Group]:
     """Return a whole sensor, and of rays with both all codes and all distances."""
     count = len(info.low)
-    found = [_group(f"all of {info.key}", info, range(count))]
+    found = [_group(_("all of {sensor}", sensor=info.key), info, range(count))]
     if picture is None or _planes(info, len(picture.groups)) != 2:
         return found
     half = count // 2
     codes = range(half) if isinstance(info.legend, CodeLegend) else range(0, count, 2)
     distances = sorted(set(range(count)) - set(codes))
-    found.append(_group(f"all codes of {info.key}", info, codes))
-    found.append(_group(f"all distances of {info.key}", info, distances))
+    found.append(_group(_("all codes of {sensor}", sensor=info.key), info, codes))
+    found.append(_group(_("all distances of {sensor}", sensor=info.key), info, distances))
     return found
 
 

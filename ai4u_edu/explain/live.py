@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Brain, ChannelLegend, LocalBrain, Percept
 from ai4u_edu.explain.baseline import Baseline, mean_of
 from ai4u_edu.explain.errors import NotExplainableError
@@ -26,6 +26,8 @@ from ai4u_edu.explain.sentence import (
     shares_of,
 )
 from ai4u_edu.explain.what_if import Changes, WhatIf, what_if
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.snapshot.block_info import SensorInfo
 
@@ -46,10 +48,10 @@ MAX_MEAN_PERCEPTS = 600
 
 Floats = npt.NDArray[np.float64]
 
-KEYS_DRIVE = "You are driving. Let a trained network drive to see why it acts."
-MIDDLE = "the middle of its range"
-GONE = "There is no such agent any more."
-SCRIPT_DRIVES = "A script elsewhere drives; only it can say why."
+KEYS_DRIVE = _("You are driving. Let a trained network drive to see why it acts.")
+MIDDLE = _("the middle of its range")
+GONE = _("There is no such agent any more.")
+SCRIPT_DRIVES = _("A script elsewhere drives; only it can say why.")
 
 
 class NamedBaseline(NamedTuple):
@@ -236,11 +238,11 @@ class BrainExplainer:
         try:
             return self._why(self.policy, agent, recorded)
         except AI4UError as error:
-            return Why(agent.id, problem=str(error))
+            return Why(agent.id, problem=text_of(error))
         except Exception as error:  # a student's function may raise anything
             # do not ask again: it would fail at each percept
             self.policy = None
-            self.problem = f"{type(error).__name__}: {error}"
+            self.problem = join([type(error).__name__, text_of(error)], ": ")
             return Why(agent.id, problem=self.problem)
 
     def _why(self, policy: Policy, agent: AgentState, recorded: NamedBaseline | None) -> Why:
@@ -259,7 +261,11 @@ class BrainExplainer:
                 # a robot that stands still makes the mean what it senses now
                 (chosen, told), (other, there) = (other, there), (chosen, told)
             if decisive(told, axes) != decisive(there, axes):
-                also = f"Compared with {other.words} instead: {sentence(there, axes)}"
+                also = _(
+                    "Compared with {baseline} instead: {sentence}",
+                    baseline=other.words,
+                    sentence=sentence(there, axes),
+                )
         shares = shares_of(told, axes)
         return Why(
             agent.id,
@@ -281,7 +287,8 @@ class BrainExplainer:
                 self._mean = mean_of(self._seen)
         if self._mean is None:
             return NamedBaseline(MIDDLE, self._middle)
-        return NamedBaseline(f"the mean of the last {len(self._seen)} percepts", self._mean)
+        words = _("the mean of the last {count} percepts", count=len(self._seen))
+        return NamedBaseline(words, self._mean)
 
 
 def parts_of(infos: Sequence[SensorInfo], agent: AgentState) -> list[Group]:
@@ -291,7 +298,11 @@ def parts_of(infos: Sequence[SensorInfo], agent: AgentState) -> list[Group]:
         parts = groups_of([info], agent.rays, agent.spots, agent.percept)
         if len(parts) > MAX_PARTS:
             parts = [
-                Group(f"all of {info.key}", info.key, np.logical_or.reduce([p.mask for p in parts]))
+                Group(
+                    _("all of {sensor}", sensor=info.key),
+                    info.key,
+                    np.logical_or.reduce([p.mask for p in parts]),
+                )
             ]
         found += parts
     return found

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Brain
 from ai4u_edu.explain.field import action_at
 from ai4u_edu.explain.live import GONE, LiveExplainer
@@ -18,6 +18,7 @@ from ai4u_edu.explain.pacing import StoppedError
 from ai4u_edu.explain.policy import Floats
 from ai4u_edu.explain.value_map import source_of, value_at
 from ai4u_edu.explain.world_copy import Poses, WorldCopy
+from ai4u_edu.locale import join
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import AgentState, Snapshot
 from ai4u_edu.world import AreaDescription, BodyDescription
@@ -124,9 +125,9 @@ class MapMaker:
         except StoppedError:
             raise
         except AI4UError as error:
-            self._fail(str(error))
+            self._fail(text_of(error))
         except Exception as error:  # a student's function may raise anything
-            self._fail(f"{type(error).__name__}: {error}")
+            self._fail(join([type(error).__name__, text_of(error)], ": "))
         return True
 
     def _fail(self, problem: str) -> None:

@@ -6,6 +6,7 @@ from typing import Self
 from ai4u_edu.agent.cycle import ControlRequestor, SimState
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Brain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.scene_export import export_scene, without_unknown_brains
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import Snapshot
@@ -57,6 +58,12 @@ class Moment:
         """
         ids = [str(each.get("id", "0")) for each in scene.agents]
         if agent not in ids:
-            raise NameNotFoundError(f"no agent has the id {agent!r}; {suggest(agent, ids)}")
+            raise NameNotFoundError(
+                _(
+                    "no agent has the id {agent}; {hint}",
+                    agent=repr(agent),
+                    hint=suggest(agent, ids),
+                )
+            )
         world = snapshot.state.world._replace(motions={body.name: body for body in snapshot.bodies})
         return cls(scene, snapshot.state._replace(world=world), agent, brain)

@@ -19,14 +19,15 @@ from ai4u_edu.explain.baseline import Baseline, middle_for
 from ai4u_edu.explain.errors import NotExplainableError
 from ai4u_edu.explain.groups import Group, Kind, groups_by
 from ai4u_edu.explain.policy import Floats, Percepts, Policy, PolicyLike
+from ai4u_edu.locale import gettext as _
 
-LIMITS = (
+LIMITS = _(
     "One sensor number at a time is replaced by its average, or by the middle of its range. Two "
     "numbers that say the same can both seem unimportant, and the changed numbers may be some that "
     "never occur together."
 )
 """The method's limits, in words for people."""
-OTHER_NUMBERS = (
+OTHER_NUMBERS = _(
     "the policy's action has other numbers for a changed percept; expected the same actuators in "
     "each answer"
 )
@@ -127,9 +128,11 @@ def occlusion(
     again = asked.decide(percept)
     if again.shape != action.shape or not np.array_equal(again, action, equal_nan=True):
         raise NotExplainableError(
-            "the policy gave two different actions for the same percept, so its action does not "
-            "follow from the percept alone; expected one that neither draws at random nor "
-            "remembers"
+            _(
+                "the policy gave two different actions for the same percept, so its action does "
+                "not follow from the percept alone; expected one that neither draws at random nor "
+                "remembers"
+            )
         )
     if any(len(row) != len(action) for row in rows):
         raise NotExplainableError(OTHER_NUMBERS)
@@ -161,13 +164,25 @@ def without(percept: Percepts, group: Group, baseline: Baseline) -> Percepts:
         SetupError: the baseline has no such reading, or one of another size.
     """
     if group.key not in baseline:
-        raise SetupError(f"the baseline has no {group.key!r}; {suggest(group.key, baseline)}")
+        raise SetupError(
+            _(
+                "the baseline has no {key!r}; {hint}",
+                key=group.key,
+                hint=suggest(group.key, baseline),
+            )
+        )
     reading = np.asarray(percept[group.key])
     other = np.asarray(baseline[group.key])
     if other.size != reading.size or len(group.mask) != reading.size:
         raise SetupError(
-            f"{group.key!r}: expected {reading.size} numbers in the baseline and in the group, got "
-            f"{other.size} and {len(group.mask)}"
+            _(
+                "{key!r}: expected {size} numbers in the baseline and in the group, got {size2} "
+                "and {count}",
+                key=group.key,
+                size=reading.size,
+                size2=other.size,
+                count=len(group.mask),
+            )
         )
     changed = np.where(group.mask.reshape(reading.shape), other.reshape(reading.shape), reading)
     return changed_percept(percept, {group.key: changed.astype(reading.dtype)})
@@ -255,7 +270,13 @@ def changed_percept(percept: Percepts, values: Mapping[str, npt.NDArray[Any]]) -
     memory = bytearray(percept.data)
     for key, value in values.items():
         if key not in layout.slots:
-            raise SetupError(f"no numeric reading is called {key!r}; {suggest(key, layout.slots)}")
+            raise SetupError(
+                _(
+                    "no numeric reading is called {key!r}; {hint}",
+                    key=key,
+                    hint=suggest(key, layout.slots),
+                )
+            )
         layout.view(memory, key)[...] = value
     return Percept(layout, bytes(memory), percept.texts)
 
@@ -264,7 +285,9 @@ def _baseline_for(policy: Policy) -> Baseline:
     found = None if policy.network is None else middle_for(policy.network)
     if found is None:
         raise SetupError(
-            "expected a baseline, as nothing here tells the ranges of the readings: "
-            "baseline=middle_of(agent), or baseline=mean_of(percepts) of recorded episodes"
+            _(
+                "expected a baseline, as nothing here tells the ranges of the readings: "
+                "baseline=middle_of(agent), or baseline=mean_of(percepts) of recorded episodes"
+            )
         )
     return found

@@ -17,6 +17,8 @@ from ai4u_edu.explain.field import ActionField
 from ai4u_edu.explain.occlusion import LIMITS, Occlusion
 from ai4u_edu.explain.reward_terms import RewardTerms
 from ai4u_edu.explain.value_map import ValueMap
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 MAX_BARS = 30
 """Most groups in a bar chart: those that matter most."""
@@ -43,10 +45,12 @@ def plot_occlusion(told: Occlusion, names: Sequence[str] = ()) -> Figure:
         colours = [PALETTE["blue" if each >= 0 else "orange"] for each in moved]
         panel.barh(places, moved, color=colours)
         panel.axvline(0, color="grey", linewidth=0.8)
-        panel.set(title=f"{name} = {told.action[column]:.2f}", xlabel="moved by")
-        panel.set_yticks(places, [told.names[row] for row in kept])
+        panel.set(title=f"{name} = {told.action[column]:.2f}", xlabel=translate(_("moved by")))
+        panel.set_yticks(places, [translate(told.names[row]) for row in kept])
     panels[0].invert_yaxis()
-    figure.supxlabel("\n".join(textwrap.wrap(LIMITS, 30 * len(panels) + 10)), fontsize="x-small")
+    figure.supxlabel(
+        "\n".join(textwrap.wrap(translate(LIMITS), 30 * len(panels) + 10)), fontsize="x-small"
+    )
     return figure
 
 
@@ -63,9 +67,9 @@ def plot_field(told: ActionField) -> Figure:
     # who drives points where it goes, who turns on the spot where it looks then
     angles = np.where(drives > 1e-3, np.arctan2(moves[:, 1], moves[:, 0]), angles)
     for name, colour, chosen in (
-        ("turns left", "blue", turns > 0.02),
-        ("turns right", "orange", turns < -0.02),
-        ("goes straight", "black", np.abs(turns) <= 0.02),
+        (_("turns left"), "blue", turns > 0.02),
+        (_("turns right"), "orange", turns < -0.02),
+        (_("goes straight"), "black", np.abs(turns) <= 0.02),
     ):
         x, y = poses[chosen, 0], poses[chosen, 1]
         dx, dy = side * np.cos(angles[chosen]), side * np.sin(angles[chosen])
@@ -79,10 +83,17 @@ def plot_field(told: ActionField) -> Figure:
             scale=0.5,
             width=0.004,
             color=PALETTE[colour],
-            label=name,
+            label=translate(name),
         )
     blocked = told.poses[~here]
-    panel.plot(blocked[:, 0], blocked[:, 1], "x", color="lightgrey", markersize=3, label="no room")
+    panel.plot(
+        blocked[:, 0],
+        blocked[:, 1],
+        "x",
+        color="lightgrey",
+        markersize=3,
+        label=translate(_("no room")),
+    )
     panel.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
     figure.legend(loc="outside lower center", ncols=4, fontsize="small")
     return figure
@@ -100,8 +111,10 @@ def plot_value_map(told: ValueMap) -> Figure:
     edges = (xs[0] - side / 2, xs[-1] + side / 2, ys[0] - side / 2, ys[-1] + side / 2)
     image = panel.imshow(table, origin="lower", extent=edges, cmap="cividis", aspect="equal")
     panel.set(xlabel="x (m)", ylabel="y (m)")
-    words = "what its critic expects" if told.source == "critic" else "what one episode pays"
-    figure.colorbar(image, label=f"{words}, discounted")
+    label = _("what one episode pays, discounted")
+    if told.source == "critic":
+        label = _("what its critic expects, discounted")
+    figure.colorbar(image, label=translate(label))
     return figure
 
 
@@ -116,7 +129,7 @@ def plot_disagreement(told: Disagreement, names: tuple[str, str] = ("first", "se
         if told.step is not None:
             panel.axvline(told.step, color="grey", linewidth=1)
         panel.set_ylabel(component)
-    panels[-1].set_xlabel("decision")
+    panels[-1].set_xlabel(translate(_("decision")))
     panels[0].legend(fontsize="small")
     return figure
 
@@ -130,7 +143,7 @@ def plot_reward_terms(told: RewardTerms) -> Figure:
         panel.plot(told.seconds, told.amounts[:, column].cumsum(), color=colour, label=name)
     for step in told.moments():
         panel.axvline(told.seconds[step], color="grey", linewidth=0.8, linestyle=":")
-    panel.set(xlabel="time (s)", ylabel="reward so far")
+    panel.set(xlabel=translate(_("time (s)")), ylabel=translate(_("reward so far")))
     if told.terms:
         panel.legend(fontsize="small")
     return figure

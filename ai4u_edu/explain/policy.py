@@ -12,6 +12,7 @@ from ai4u_edu.blocks import Command, Controller, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.network import VALUE_OUTPUT, Network, find_network
 from ai4u_edu.explain.errors import NotExplainableError
 from ai4u_edu.explain.statefulness import dependence_on_more, memory_of
+from ai4u_edu.locale import gettext as _
 
 Floats = npt.NDArray[np.float64]
 Percepts = Mapping[str, Any]
@@ -76,14 +77,20 @@ class Policy:
         if after != before:
             changed = [name for name, value in after.items() if before.get(name) != value]
             raise NotExplainableError(
-                "the policy keeps something from one decision to the next (it changes "
-                f"{', '.join(changed)}), so its action may not follow from the percept alone; "
-                "expected a policy without a state"
+                _(
+                    "the policy keeps something from one decision to the next (it changes "
+                    "{names}), so its action may not follow from the percept alone; expected a "
+                    "policy without a state",
+                    names=", ".join(changed),
+                )
             )
         if isinstance(answer, Command):
             raise NotExplainableError(
-                f"expected an action, got the command {answer.name}; choose a percept in the "
-                "middle of an episode"
+                _(
+                    "expected an action, got the command {name}; choose a percept in the middle "
+                    "of an episode",
+                    name=answer.name,
+                )
             )
         return {key: np.asarray(value, np.float64) for key, value in _named(answer)}
 
@@ -112,8 +119,11 @@ class Policy:
         if callable(source):
             return source, source
         raise SetupError(
-            "expected a function from percept to action, a Controller, a network's file "
-            f"(policy.onnx or zoo:SCENE) or the result of a training, got {source!r}"
+            _(
+                "expected a function from percept to action, a Controller, a network's file "
+                "(policy.onnx or zoo:SCENE) or the result of a training, got {source}",
+                source=repr(source),
+            )
         )
 
 
@@ -125,8 +135,11 @@ def values_of(network: Network, percept: Percepts) -> float:
     """
     if not has_critic(network):
         raise SetupError(
-            f"{network.path.name}: this network has no critic; export it with: "
-            "ai4u-edu export MODEL --with-critic, or estimate values by rollouts"
+            _(
+                "{name}: this network has no critic; export it with: ai4u-edu export MODEL "
+                "--with-critic, or estimate values by rollouts",
+                name=network.path.name,
+            )
         )
     return float(network.decide(percept)[VALUE_OUTPUT].ravel()[0])
 
@@ -148,5 +161,8 @@ def _named(answer: Any) -> list[tuple[str, Any]]:
         return [("action", np.asarray(answer, np.float64))]
     except (TypeError, ValueError):
         raise AI4UError(
-            f"expected an action as a mapping from actuator to numbers, got {answer!r}"
+            _(
+                "expected an action as a mapping from actuator to numbers, got {answer}",
+                answer=repr(answer),
+            )
         ) from None

@@ -9,6 +9,8 @@ import numpy as np
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.explain.groups import Group
 from ai4u_edu.explain.occlusion import Occlusion
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, listed
 from ai4u_edu.snapshot.block_info import ActuatorInfo, block_info_of
 from ai4u_edu.snapshot.numbers import number
 
@@ -18,7 +20,7 @@ SAME_SHARE = 0.01
 """Difference of two movements, relative to the larger one, up to which they are equal."""
 MAX_NAMES = 3
 """Most slots that a sentence names."""
-NO_NUMBER = "Its action has a number that is none (NaN), so nothing can be said about it."
+NO_NUMBER = _("Its action has a number that is none (NaN), so nothing can be said about it.")
 SMALL_SHARE = 0.001
 """Smallest share that is named of a slot that moves the action little."""
 TOLERANCE = 0.25
@@ -26,26 +28,70 @@ TOLERANCE = 0.25
 NEUTRAL_SHARE = 0.05
 """Share of a component's range around 0 that counts as doing nothing."""
 
+
+class Doing(NamedTuple):
+    """Words for what a robot does."""
+
+    now: str
+    """After "It", as ``turns right``."""
+    would: str
+    """After "it would", as ``turn right``."""
+
+
+_STRAIGHT = Doing(_("goes straight"), _("go straight"))
+_FORWARD = Doing(_("drives forward"), _("drive forward"))
+_BACKWARD = Doing(_("drives backward"), _("drive backward"))
+_STILL = Doing(_("stands still"), _("stand still"))
+_JUMPS = Doing(_("jumps"), _("jump"))
+_JUMPS_FORWARD = Doing(_("jumps forward"), _("jump forward"))
+_OPENS = Doing(_("opens its hand"), _("open its hand"))
 SIDES = {
-    "turn": ("turns right", "turns left", "goes straight"),
-    "steering": ("steers right", "steers left", "steers straight"),
-    "strafe": ("slides right", "slides left", "does not slide sideways"),
-    "forward": ("drives forward", "drives backward", "stands still"),
-    "throttle": ("drives forward", "drives backward", "stands still"),
-    "jump": ("jumps", "jumps", "does not jump"),
-    "forward jump": ("jumps forward", "jumps forward", "does not jump forward"),
-    "left": ("turns its left wheel forward", "turns its left wheel back", "stops its left wheel"),
-    "right": (
-        "turns its right wheel forward",
-        "turns its right wheel back",
-        "stops its right wheel",
+    "turn": (
+        Doing(_("turns right"), _("turn right")),
+        Doing(_("turns left"), _("turn left")),
+        _STRAIGHT,
     ),
-    "grip": ("closes its hand", "opens its hand", "opens its hand"),
+    "steering": (
+        Doing(_("steers right"), _("steer right")),
+        Doing(_("steers left"), _("steer left")),
+        Doing(_("steers straight"), _("steer straight")),
+    ),
+    "strafe": (
+        Doing(_("slides right"), _("slide right")),
+        Doing(_("slides left"), _("slide left")),
+        Doing(_("does not slide sideways"), _("not slide sideways")),
+    ),
+    "forward": (_FORWARD, _BACKWARD, _STILL),
+    "throttle": (_FORWARD, _BACKWARD, _STILL),
+    "jump": (_JUMPS, _JUMPS, Doing(_("does not jump"), _("not jump"))),
+    "forward jump": (
+        _JUMPS_FORWARD,
+        _JUMPS_FORWARD,
+        Doing(_("does not jump forward"), _("not jump forward")),
+    ),
+    "left": (
+        Doing(_("turns its left wheel forward"), _("turn its left wheel forward")),
+        Doing(_("turns its left wheel back"), _("turn its left wheel back")),
+        Doing(_("stops its left wheel"), _("stop its left wheel")),
+    ),
+    "right": (
+        Doing(_("turns its right wheel forward"), _("turn its right wheel forward")),
+        Doing(_("turns its right wheel back"), _("turn its right wheel back")),
+        Doing(_("stops its right wheel"), _("stop its right wheel")),
+    ),
+    "grip": (Doing(_("closes its hand"), _("close its hand")), _OPENS, _OPENS),
 }
 """Words for a number above 0, below 0 and near 0, by the component's name."""
 
-
-CHOICES = {"GridMoveActuator": ("stays", "goes right", "goes left", "goes up", "goes down")}
+CHOICES = {
+    "GridMoveActuator": (
+        Doing(_("stays"), _("stay")),
+        Doing(_("goes right"), _("go right")),
+        Doing(_("goes left"), _("go left")),
+        Doing(_("goes up"), _("go up")),
+        Doing(_("goes down"), _("go down")),
+    )
+}
 """Words for choices, by the actuator's class."""
 
 
@@ -57,7 +103,7 @@ class Axis(NamedTuple):
     high: float
     is_choice: bool = False
     has_effect: bool = True
-    choices: tuple[str, ...] = ()
+    choices: tuple[Doing, ...] = ()
     """Words for the choices, as ``goes right``; empty if they have none."""
 
     @property
@@ -131,9 +177,9 @@ def sentence(told: Occlusion, axes: Sequence[Axis]) -> str:
         if abs(each[index]) >= (1 - SAME_SHARE) * size
         and _words(axis, float(told.without[number, index])) == _words(axis, otherwise)
     ]
-    without = "it" if len(equal) == 1 else "one of them"
+    without = _("it") if len(equal) == 1 else _("one of them")
     if all(told.groups[row].says for row in equal):
-        without = "that sensor" if len(equal) == 1 else "one of these sensors"
+        without = _("that sensor") if len(equal) == 1 else _("one of these sensors")
     return _because(axis, now, otherwise, _reasons(told, equal), without)
 
 
@@ -158,11 +204,22 @@ def explained(told: Occlusion, axes: Sequence[Axis]) -> str:
         return ""
     part = float(shares[:, index].sum() / whole[index])
     if part < 0:
-        return "Left out one by one, the slots move it the other way than all of them together."
-    text = f"Left out one by one, the slots explain {part:.0%} of what all do together"
+        return _("Left out one by one, the slots move it the other way than all of them together.")
     if part > 1 + TOLERANCE:
-        return f"{text}: some need each other."
-    return f"{text}: some stand in for others." if part < 1 - TOLERANCE else f"{text}."
+        return _(
+            "Left out one by one, the slots explain {part:.0%} of what all do together: some need "
+            "each other.",
+            part=part,
+        )
+    if part < 1 - TOLERANCE:
+        return _(
+            "Left out one by one, the slots explain {part:.0%} of what all do together: some stand "
+            "in for others.",
+            part=part,
+        )
+    return _(
+        "Left out one by one, the slots explain {part:.0%} of what all do together.", part=part
+    )
 
 
 def decisive(told: Occlusion, axes: Sequence[Axis]) -> frozenset[str]:
@@ -177,79 +234,98 @@ def decisive(told: Occlusion, axes: Sequence[Axis]) -> frozenset[str]:
 
 def _no_single(told: Occlusion, axes: Sequence[Axis], size: float, row: int) -> str:
     """Return a sentence for a decision that no slot alone explains, with its cause."""
-    text = (
-        f"No single number decides: without any one of them the action moves by less than "
-        f"{MIN_SHARE:.0%} of its range."
-    )
     none = np.flatnonzero(~np.isfinite(told.without).all(axis=1))
     if len(none):
-        return f"Without {told.names[none[0]]}, its action would have a number that is none (NaN)."
+        return _(
+            "Without {name}, its action would have a number that is none (NaN).",
+            name=told.names[none[0]],
+        )
     if told.base is None:
-        return text
+        return _(
+            "No single number decides: without any one of them the action moves by less than "
+            "{share:.0%} of its range.",
+            share=MIN_SHARE,
+        )
     whole = [abs(_share(float(each), axis)) for each, axis in zip(told.whole, axes, strict=True)]
     largest = max(whole, default=0.0)
     if largest >= MIN_SHARE:
         index = whole.index(largest)
         now, base = float(told.action[index]), float(told.base[index])
         if 1 < len(told.together) <= MAX_NAMES:
-            reasons = _reasons(told, told.together)
-            without = "both" if len(told.together) == 2 else "all of them"
-            return _because(axes[index], now, base, reasons, without, " together")
-        return (
-            f"Many numbers decide together: each of them alone moves the action by less than "
-            f"{MIN_SHARE:.0%} of its range, all of them by {largest:.0%}."
+            without = _("both") if len(told.together) == 2 else _("all of them")
+            reasons = _("{reasons} together", reasons=_reasons(told, told.together))
+            return _because(axes[index], now, base, reasons, without)
+        return _(
+            "Many numbers decide together: each of them alone moves the action by less than "
+            "{share:.0%} of its range, all of them by {largest:.0%}.",
+            share=MIN_SHARE,
+            largest=largest,
         )
     if told.is_deaf:
-        return "It looks at nothing: the action is the same whatever it senses."
+        return _("It looks at nothing: the action is the same whatever it senses.")
     if told.is_at_baseline:
-        return (
-            "All that it senses now is as in the comparison, so there is nothing to leave out. "
-            "Let it move on."
+        return _(
+            "All that it senses now is as in the comparison, so there is nothing to leave out. Let "
+            "it move on."
         )
     if size >= SMALL_SHARE:
-        return (
-            f"Nothing that it senses moves the action much: {told.names[row]} moves it most, by "
-            f"{size:.1%} of its range."
+        return _(
+            "Nothing that it senses moves the action much: {name} moves it most, by {share:.1%} of "
+            "its range.",
+            name=told.names[row],
+            share=size,
         )
-    return (
+    return _(
         "Nothing that it senses now decides: it would do the same if all of it were as in the "
         "comparison."
     )
 
 
-def _because(
-    axis: Axis, now: float, otherwise: float, reasons: str, without: str, how: str = ""
-) -> str:
+def _because(axis: Axis, now: float, otherwise: float, reasons: str, without: str) -> str:
     words, other = _words(axis, now), _words(axis, otherwise)
+    values = {"does": words.now, "reasons": reasons, "without": without}
     if words != other:
-        return (
-            f"It {words} because {reasons}{how}. Without {without}, it would {_infinitive(other)}."
+        return _(
+            "It {does} because {reasons}. Without {without}, it would {would}.",
+            would=other.would,
+            **values,
         )
-    more = "more" if abs(now) > abs(otherwise) else "less"
-    return (
-        f"It {words} {more} because {reasons}{how}: {number(abs(now))}. "
-        f"Without {without}, it would be {number(abs(otherwise))}."
+    values |= {"size": number(abs(now)), "other": number(abs(otherwise))}
+    if abs(now) > abs(otherwise):
+        return _(
+            "It {does} more because {reasons}: {size}. Without {without}, it would be {other}.",
+            **values,
+        )
+    return _(
+        "It {does} less because {reasons}: {size}. Without {without}, it would be {other}.",
+        **values,
     )
 
 
 def _reasons(told: Occlusion, rows: Sequence[int]) -> str:
     """Return the reasons of groups, joined; a few of many."""
-    named = [_reason(told.groups[row]) for row in rows[:MAX_NAMES]]
-    named.sort(key=lambda reason: reason.startswith("of "))  # a clause does not follow an "of"
+    groups = [told.groups[row] for row in rows[:MAX_NAMES]]
+    # in English a clause does not follow an "of"
+    groups.sort(key=lambda group: not (group.sees or group.says))
+    named = [_reason(group) for group in groups]
     if len(rows) > MAX_NAMES:
-        return f"{', '.join(named)} and {len(rows) - MAX_NAMES} more"
-    return " and ".join([", ".join(named[:-1]), named[-1]] if len(named) > 1 else named)
+        more = len(rows) - MAX_NAMES
+        return _("{names} and {more} more", names=join(named, ", "), more=more)
+    return listed(named)
 
 
 def _reason(group: Group) -> str:
+    if group.sees == "nothing":
+        return _("{ray} sees nothing", ray=group.name)
+    if group.sees == "something":
+        return _("{ray} sees something", ray=group.name)
     if group.sees:
-        seen = group.sees if group.sees in ("nothing", "something") else f"the {group.sees}"
-        return f"{group.name} sees {seen}"
+        return _("{ray} sees the {thing}", ray=group.name, thing=group.sees)
     if group.says:
         return group.says
     if group.name == f"all of {group.key}":
-        return f"of what its {group.key.replace('_', ' ')} shows"
-    return f"of {group.name}"
+        return _("of what its {sensor} shows", sensor=group.key.replace("_", " "))
+    return _("of {name}", name=group.name)
 
 
 def _fitting(told: Occlusion, axes: Sequence[Axis]) -> Sequence[Axis]:
@@ -266,21 +342,24 @@ def _share(moved: float, axis: Axis) -> float:
     return moved / axis.span
 
 
-def _words(axis: Axis, value: float) -> str:
+def _words(axis: Axis, value: float) -> Doing:
     if axis.is_choice and 0 <= value < len(axis.choices):
         return axis.choices[int(value)]
     if axis.is_choice:
-        return f"chooses {axis.name} {value:g}"
-    above, below, neither = SIDES.get(
-        axis.name,
-        (f"has {axis.name} above 0", f"has {axis.name} below 0", f"has {axis.name} near 0"),
-    )
+        return Doing(
+            _("chooses {name} {value:g}", name=axis.name, value=value),
+            _("choose {name} {value:g}", name=axis.name, value=value),
+        )
+    above, below, neither = SIDES.get(axis.name) or _sides_of(axis.name)
     if abs(value) <= NEUTRAL_SHARE * axis.span:
         return neither
     return above if value > 0 else below
 
 
-def _infinitive(words: str) -> str:
-    first, *rest = words.split(" ")
-    known = {"does": "", "has": "have", "goes": "go"}
-    return " ".join(filter(None, [known.get(first, first.removesuffix("s")), *rest]))
+def _sides_of(name: str) -> tuple[Doing, Doing, Doing]:
+    """Return the words for a number without words of its own."""
+    return (
+        Doing(_("has {name} above 0", name=name), _("have {name} above 0", name=name)),
+        Doing(_("has {name} below 0", name=name), _("have {name} below 0", name=name)),
+        Doing(_("has {name} near 0", name=name), _("have {name} near 0", name=name)),
+    )

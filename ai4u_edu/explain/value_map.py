@@ -9,6 +9,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.explain.field import poses_for
 from ai4u_edu.explain.policy import Floats, Policy, PolicyLike, has_critic, values_of
 from ai4u_edu.explain.world_copy import DEFAULT_COLUMNS, Poses, WorldCopy, WorldLike
+from ai4u_edu.locale import gettext as _
 
 DEFAULT_DECISIONS = 200
 """Decisions of a rollout from one pose."""
@@ -84,9 +85,11 @@ def source_of(policy: Policy, wanted: str = "") -> str:
     network = policy.network
     source = wanted or ("critic" if network is not None and has_critic(network) else "rollouts")
     if source not in ("critic", "rollouts"):
-        raise SetupError(f"source: expected 'critic' or 'rollouts', got {source!r}")
+        raise SetupError(
+            _("source: expected 'critic' or 'rollouts', got {source}", source=repr(source))
+        )
     if source == "critic" and network is None:
-        raise SetupError("source: expected a network with a critic; a function has none")
+        raise SetupError(_("source: expected a network with a critic; a function has none"))
     return source
 
 
@@ -115,7 +118,7 @@ def value_at(
     if source == "critic" and copy.policy.network is not None:
         return values_of(copy.policy.network, percept)
     total, weight, agent = 0.0, 1.0, copy.agent
-    for _ in range(decisions):
+    for _decision in range(decisions):
         if agent.done:
             break
         copy.step()

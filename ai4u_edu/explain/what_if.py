@@ -13,6 +13,7 @@ from ai4u_edu.explain.groups import groups_of
 from ai4u_edu.explain.occlusion import changed_percept
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.sentence import Axis, axes_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot import AgentState
 from ai4u_edu.snapshot.block_info import SensorInfo
 
@@ -76,10 +77,19 @@ def changed_by(percept: Percept, infos: Sequence[SensorInfo], changes: Changes) 
     values: dict[str, npt.NDArray[Any]] = {}
     for (key, index), value in changes.items():
         if key not in known:
-            raise SetupError(f"no input is called {key!r}; {suggest(key, known)}")
+            raise SetupError(
+                _("no input is called {key!r}; {hint}", key=key, hint=suggest(key, known))
+            )
         info = known[key]
         if not 0 <= index < len(info.low):
-            raise SetupError(f"{key}: expected a number from 0 to {len(info.low) - 1}, got {index}")
+            raise SetupError(
+                _(
+                    "{key}: expected a number from 0 to {count}, got {index}",
+                    key=key,
+                    count=len(info.low) - 1,
+                    index=index,
+                )
+            )
         reading = values.setdefault(key, np.array(percept[key]))
         rows = reading.reshape(info.stack, -1)
         rows[:, index] = np.clip(value, info.low[index], info.high[index])

@@ -13,6 +13,7 @@ from ai4u_edu.blocks import Brain, HomeostaticVariable, LocalBrain, Percept, Sen
 from ai4u_edu.blocks.block import walk_blocks
 from ai4u_edu.explain.moment import Moment
 from ai4u_edu.explain.policy import Policy
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 DEFAULT_COLUMNS = 12
@@ -85,7 +86,12 @@ class WorldCopy:
         rows = max(1, round((high - low) / side))
         if not 0 < columns * rows <= MAX_POSES:
             raise SetupError(
-                f"expected 1 to {MAX_POSES} poses, got {columns} columns and {rows} rows"
+                _(
+                    "expected 1 to {max_poses} poses, got {columns} columns and {rows} rows",
+                    max_poses=MAX_POSES,
+                    columns=columns,
+                    rows=rows,
+                )
             )
         xs = left + side * (np.arange(columns) + 0.5)
         ys = low + (high - low) / rows * (np.arange(rows) + 0.5)

@@ -10,6 +10,7 @@ from typing import overload
 
 from ai4u_edu.blocks import Block, RemoteBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.episode import AgentRecord, Episode
 from ai4u_edu.recording.errors import RecordingError
 
@@ -115,9 +116,14 @@ class Archive(Sequence[Episode]):
         """
         with self._lock:
             if not any(entry.number == number for entry in self.entries):
-                raise RecordingError(f"episode {number} is not kept any more")
+                raise RecordingError(_("episode {number} is not kept any more", number=number))
             if on and sum(entry.is_pinned for entry in self.entries) >= MAX_PINNED:
-                raise RecordingError(f"expected at most {MAX_PINNED} pinned episodes; unpin one")
+                raise RecordingError(
+                    _(
+                        "expected at most {max_pinned} pinned episodes; unpin one",
+                        max_pinned=MAX_PINNED,
+                    )
+                )
             # a new tuple: readers iterate over the old one without the lock
             self.entries = tuple(
                 replace(entry, is_pinned=on) if entry.number == number else entry

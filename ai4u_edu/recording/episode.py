@@ -19,9 +19,11 @@ import numpy.typing as npt
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.base.errors import NameNotFoundError, suggest, text_of
 from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.table import MAX_FORMS, Table, check_finite, pack_column, unpack_column
 from ai4u_edu.scenes import Scene, SceneDescription
@@ -195,7 +197,11 @@ class Episode:
             if agent_id in (None, record.id):
                 return record
         raise NameNotFoundError(
-            f"no agent has the id {agent_id!r}; {suggest(str(agent_id), self.ids)}"
+            _(
+                "no agent has the id {agent_id}; {hint}",
+                agent_id=repr(agent_id),
+                hint=suggest(str(agent_id), self.ids),
+            )
         )
 
     @property
@@ -253,7 +259,9 @@ class Episode:
             with path.open("rb") as file:
                 data = file.read(MAX_RECORDING_BYTES + 1)
         except OSError as error:
-            raise RecordingError(f"{path}: can't be read: {error.strerror}") from None
+            raise RecordingError(
+                _("{path}: can't be read: {why}", path=str(path), why=str(error.strerror))
+            ) from None
         return decode(cls, data, path.name)
 
     def __str__(self) -> str:
@@ -363,21 +371,29 @@ def decode(cls: type[E], data: bytes, name: str) -> E:
     try:
         return _read(cls, data)
     except RecordingError as error:
-        raise RecordingError(f"{name}: {error}") from None
+        raise RecordingError(join([name, text_of(error)], ": ")) from None
 
 
 def _read(cls: type[E], data: bytes) -> E:
     if not data.startswith((HEADER, *EARLIER_HEADERS)):
         if data.startswith(HEADER[:16]):
             raise RecordingError(
-                "an episode of another version of this package; expected "
-                f"{HEADER.decode().strip()!r}, got {data[: len(HEADER)].split()[-1]!r}"
+                _(
+                    "an episode of another version of this package; expected {version}, got {got}",
+                    version=repr(HEADER.decode().strip()),
+                    got=repr(data[: len(HEADER)].split()[-1]),
+                )
             )
         raise RecordingError(
-            "expected a recorded episode, as ai4u-edu record writes it, and this is none"
+            _("expected a recorded episode, as ai4u-edu record writes it, and this is none")
         )
     if len(data) > MAX_RECORDING_BYTES:
-        raise RecordingError(f"expected at most {MAX_RECORDING_BYTES // 2**20} MB")
+        raise RecordingError(
+            _(
+                "expected at most {mb} MB",
+                mb=MAX_RECORDING_BYTES // 2**20,
+            )
+        )
     file = _validated(_unpacked(data[len(HEADER) :]))
     episode = cls(
         scene=_scene(file.scene),
@@ -401,13 +417,20 @@ def _unpacked(packed: bytes) -> Any:
     try:
         plain = unpacker.decompress(packed, MAX_UNPACKED_MB * 2**20 + 1)
     except zlib.error as error:
-        raise RecordingError(f"damaged: it can't be unpacked ({error})") from None
+        raise RecordingError(
+            _("damaged: it can't be unpacked ({error})", error=text_of(error))
+        ) from None
     if len(plain) > MAX_UNPACKED_MB * 2**20:
-        raise RecordingError(f"expected at most {MAX_UNPACKED_MB} MB when it is unpacked")
+        raise RecordingError(
+            _(
+                "expected at most {mb} MB when it is unpacked",
+                mb=MAX_UNPACKED_MB,
+            )
+        )
     if not unpacker.eof:
-        raise RecordingError("damaged: its end is missing")
+        raise RecordingError(_("damaged: its end is missing"))
     if unpacker.unused_data:
-        raise RecordingError("damaged: something follows after its end")
+        raise RecordingError(_("damaged: something follows after its end"))
     try:
         return msgpack.unpackb(
             plain,
@@ -420,7 +443,9 @@ def _unpacked(packed: bytes) -> Any:
             max_ext_len=0,
         )
     except (ValueError, TypeError, RecursionError, OverflowError) as error:
-        raise RecordingError(f"damaged: its contents can't be read ({error})") from None
+        raise RecordingError(
+            _("damaged: its contents can't be read ({error})", error=text_of(error))
+        ) from None
 
 
 def _validated(data: Any) -> _File:
@@ -463,7 +488,9 @@ def _scene(plain: dict[str, Any]) -> SceneDescription:
         json.dumps(plain)
     except (TypeError, ValueError, RecursionError) as error:
         # msgpack can have bytes, and deeper nesting than a scene file
-        raise RecordingError(f"scene: expected what a scene's file can hold, got {error}") from None
+        raise RecordingError(
+            _("scene: expected what a scene's file can hold, got {error}", error=text_of(error))
+        ) from None
     try:
         return SceneDescription.model_validate(plain)
     except ValidationError as error:
@@ -474,8 +501,10 @@ def _scene(plain: dict[str, Any]) -> SceneDescription:
 
 
 def _message(problems: list[ParameterProblem]) -> str:
-    more = f" (and {len(problems) - 3} more)" if len(problems) > 3 else ""
-    return "; ".join(map(str, problems[:3])) + more
+    text = join([problem.message for problem in problems[:3]], "; ")
+    if len(problems) <= 3:
+        return text
+    return _("{problems} (and {more} more)", problems=text, more=len(problems) - 3)
 
 
 def _record(agent: _Agent) -> AgentRecord:
@@ -519,7 +548,13 @@ def _validate(episode: Episode) -> None:
     """
     ids = [str(agent.get("id", "0")) for agent in episode.scene.agents]
     if list(episode.ids) != ids:
-        raise RecordingError(f"agents: expected those of the scene, {ids}, got {list(episode.ids)}")
+        raise RecordingError(
+            _(
+                "agents: expected those of the scene, {ids}, got {got}",
+                ids=str(ids),
+                got=str(list(episode.ids)),
+            )
+        )
     for record in episode.agents:
         _check_agent(record, episode.ticks)
     _check_order(episode)
@@ -528,53 +563,79 @@ def _validate(episode: Episode) -> None:
         known = 0 <= given.agent < len(episode.agents) and given.moment >= 0
         if not known or not 0 <= given.tick <= 2 * MAX_TICK or not math.isfinite(sum(given.values)):
             raise RecordingError(
-                f"inputs: expected an agent's number, a moment and finite numbers, got {given}"
+                _(
+                    "inputs: expected an agent's number, a moment and finite numbers, got {given}",
+                    given=str(given),
+                )
             )
     numbers = np.array([number for value in episode.options.values() for number in np.ravel(value)])
     if not np.isfinite(numbers.astype(np.float64)).all():
-        raise RecordingError(f"options: expected finite numbers, got {episode.options}")
+        raise RecordingError(
+            _("options: expected finite numbers, got {options}", options=str(episode.options))
+        )
 
 
 def _check_agent(record: AgentRecord, ticks: int) -> None:
-    who, count = f"agent {record.id!r}", len(record)
+    who, count = _("agent {id!r}", id=record.id), len(record)
     for name in ("end", "skip", "flags", "actions", "terms", "rewards", "percepts", "worlds"):
         if len(getattr(record, name)) != count:
             raise RecordingError(
-                f"{who}: expected {count} {name}, one for each decision, "
-                f"got {len(getattr(record, name))}"
+                _(
+                    "{who}: expected {count} {name}, one for each decision, got {got}",
+                    who=who,
+                    count=count,
+                    name=name,
+                    got=len(getattr(record, name)),
+                )
             )
     if len(record.carried) not in (0, count):
         raise RecordingError(
-            f"{who}: expected {count} carried, one for each decision, or none, "
-            f"got {len(record.carried)}"
+            _(
+                "{who}: expected {count} carried, one for each decision, or none, got {got}",
+                who=who,
+                count=count,
+                got=len(record.carried),
+            )
         )
     if (record.skip > _MAX_SKIP_FRAME).any():
-        raise RecordingError(f"{who}: skip: expected at most {_MAX_SKIP_FRAME}")
+        raise RecordingError(
+            _(
+                "{who}: skip: expected at most {most}",
+                who=who,
+                most=_MAX_SKIP_FRAME,
+            )
+        )
     if (record.end < record.begin).any() or (record.end > ticks).any():
-        raise RecordingError(f"{who}: end: expected decisions that end after they begin")
+        raise RecordingError(_("{who}: end: expected decisions that end after they begin", who=who))
     ended = (record.flags & ENDED) > 0
     if (record.end[ended] == record.begin[ended]).any():
-        raise RecordingError(f"{who}: end: expected each decision to take a tick at least")
+        raise RecordingError(
+            _("{who}: end: expected each decision to take a tick at least", who=who)
+        )
     starts = record.starts
     if not len(starts) or len(record.firsts) != len(starts) or starts[0] != 0:
-        raise RecordingError(f"{who}: starts: expected one for each of the agent's episodes")
+        raise RecordingError(
+            _("{who}: starts: expected one for each of the agent's episodes", who=who)
+        )
     if (np.diff(starts.astype(np.int64)) < 0).any() or (starts > count).any():
-        raise RecordingError(f"{who}: starts: expected numbers of decisions, in order")
+        raise RecordingError(_("{who}: starts: expected numbers of decisions, in order", who=who))
 
 
 def _check_order(episode: Episode) -> None:
     order = episode.order
     for index, record in enumerate(episode.agents):
         if int((order == index).sum()) != len(record):
-            raise RecordingError(f"order: expected all decisions of agent {record.id!r} once each")
+            raise RecordingError(
+                _("order: expected all decisions of agent {id!r} once each", id=record.id)
+            )
     if order[order < 0].tolist() != [-1 - i for i in range(len(episode.restarts))]:
-        raise RecordingError("order: expected all restarts once each, in order")
+        raise RecordingError(_("order: expected all restarts once each, in order"))
     if len(order) and int(order.max()) >= len(episode.agents):
-        raise RecordingError("order: expected numbers of agents")
+        raise RecordingError(_("order: expected numbers of agents"))
     for restart in episode.restarts:
         known = all(0 <= index < len(episode.agents) for index in restart.agents)
         if not restart.agents or len(set(restart.agents)) < len(restart.agents) or not known:
-            raise RecordingError("restarts: expected numbers of agents")
+            raise RecordingError(_("restarts: expected numbers of agents"))
 
 
 def _check_time(episode: Episode) -> None:
@@ -587,4 +648,4 @@ def _check_time(episode: Episode) -> None:
         ticks[places] = record.begin
     ticks[episode.restart_places] = restarts if known else -1
     if not known or (np.diff(ticks) < 0).any() or (ticks > episode.ticks).any():
-        raise RecordingError("order: expected what happened later to come later")
+        raise RecordingError(_("order: expected what happened later to come later"))

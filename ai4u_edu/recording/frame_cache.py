@@ -8,6 +8,7 @@ from typing import Any
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.replay import Replay
@@ -153,9 +154,17 @@ class FrameCache:
     def label(self, step: int) -> str:
         """Return a snapshot's label to show to a person."""
         count = len(self.record)
-        where = f"step {step + 1} of {count}" if step < count else "the end"
-        who = "" if len(self.episode.agents) == 1 else f" of agent {self.record.id}"
-        return f"episode {self.number}, {where}{who}"
+        where = _("the end")
+        if step < count:
+            where = _("step {step} of {count}", step=step + 1, count=count)
+        if len(self.episode.agents) == 1:
+            return _("episode {number}, {where}", number=self.number, where=where)
+        return _(
+            "episode {number}, {where} of agent {id}",
+            number=self.number,
+            where=where,
+            id=self.record.id,
+        )
 
     def _is_ready(self, step: int) -> bool:
         """Return True if a snapshot is cached, and its decisions' results are known."""

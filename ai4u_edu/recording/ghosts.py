@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.replay import Replay
 from ai4u_edu.snapshot import Snapshot, StaticScene
@@ -71,7 +73,7 @@ class GhostDrive:
         self,
         episode: Episode,
         name: str,
-        label: str = "ghost",
+        label: str = _("ghost"),
         place: int | None = None,
         *,
         stretch: float = 1.0,
@@ -87,10 +89,12 @@ class GhostDrive:
     def warning(self, snapshot: Snapshot) -> str:
         """Return what makes a race against it unfair; empty if it is fair."""
         if self.is_of_other_scene(snapshot.static_scene):
-            return "It ran in another scene."
+            return _("It ran in another scene.")
         if snapshot.seed != self.episode.seed:
-            seed = self.episode.seed
-            return f"It began otherwise: with seed {seed}. Race against it again."
+            return _(
+                "It began otherwise: with seed {seed}. Race against it again.",
+                seed=self.episode.seed,
+            )
         return ""
 
     def is_of_other_scene(self, static_scene: StaticScene) -> bool:
@@ -104,7 +108,7 @@ class GhostDrive:
         try:
             self.path = ghost_of(self.episode)
         except AI4UError as error:
-            self.problem = str(error)
+            self.problem = text_of(error)
 
 
 class Ghosts:
@@ -122,7 +126,7 @@ class Ghosts:
         self,
         episode: Episode | None,
         name: str = "",
-        label: str = "ghost",
+        label: str = _("ghost"),
         *,
         stretch: float = 1.0,
     ) -> None:
@@ -152,7 +156,7 @@ class Ghosts:
     @property
     def name(self) -> str:
         """Names of the episodes; empty if there is no ghost."""
-        return ", ".join(drive.name for drive in self.drives if not drive.problem)
+        return join([drive.name for drive in self.drives if not drive.problem], ", ")
 
     def text(self, snapshot: Snapshot) -> str:
         """Return the ghosts' names and any problem; empty if there is no ghost."""
@@ -160,7 +164,10 @@ class Ghosts:
             return ""
         shown = [drive for drive in self.drives if not drive.problem]
         if not shown:
-            return f"No ghost: {self.drives[0].problem}"
-        text = f"{'Ghost' if len(shown) == 1 else 'Ghosts'}: {self.name}"
+            return _("No ghost: {problem}", problem=self.drives[0].problem)
+        is_one = len(shown) == 1
+        text = (
+            _("Ghost: {name}", name=self.name) if is_one else _("Ghosts: {names}", names=self.name)
+        )
         warning = shown[0].warning(snapshot)
-        return f"{text}. {warning}" if warning else text
+        return join([text, warning], ". ") if warning else text

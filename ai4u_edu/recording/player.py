@@ -6,8 +6,9 @@ from typing import cast
 
 from ai4u_edu.agent.block_errors import may_be_kept, sentence_of
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.episode import DONE_REQUESTED, REPEAT, Episode, Input
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
@@ -177,7 +178,7 @@ class Player:
         except BaseException as error:
             if isinstance(error, AI4UError) or not may_be_kept(error):
                 raise
-            told = f"a block failed: {sentence_of(error, self.sim.agents)}"
+            told = _("a block failed: {error}", error=sentence_of(error, self.sim.agents))
             raise RecordingError(told) from error
 
     def _restart_is_due(self) -> bool:
@@ -204,11 +205,16 @@ class Player:
                 try:
                     return cast(Brain, from_plain(Brain, data, ("agents", index, "brains", path)))
                 except PlainDataError as error:
-                    raise RecordingError(f"the episode's scene: {error}") from None
+                    raise RecordingError(
+                        _("the episode's scene: {error}", error=text_of(error))
+                    ) from None
         agent = self.episode.agents[index].id
         raise RecordingError(
-            f"agent {agent!r} was driven by what no file can hold, such as a Python function; "
-            f"expected a brain for it, as in brains={{{agent!r}: LocalBrain(...)}}"
+            _(
+                "agent {agent} was driven by what no file can hold, such as a Python function; "
+                "expected a brain for it, as in brains={{{agent}: LocalBrain(...)}}",
+                agent=repr(agent),
+            )
         )
 
 
@@ -220,13 +226,17 @@ def _new_world(episode: Episode, brains: list[RecordedBrain]) -> ControlRequesto
     try:
         return scene.build(episode.seed, brains=lambda agent: by_id[agent.id])
     except AI4UError as error:
-        raise RecordingError(f"the episode's scene can't be made: {error}") from None
+        raise RecordingError(
+            _("the episode's scene can't be made: {error}", error=text_of(error))
+        ) from None
 
 
 def _same(sim: ControlRequestor, episode: Episode) -> ControlRequestor:
     if without_brains(export_scene(sim)) != without_brains(episode.scene):
         raise RecordingError(
-            "the episode was recorded in another world, or with other blocks; expected a sim of "
-            "its own scene: Scene(episode.scene).build()"
+            _(
+                "the episode was recorded in another world, or with other blocks; expected a sim "
+                "of its own scene: Scene(episode.scene).build()"
+            )
         )
     return sim

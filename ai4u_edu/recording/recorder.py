@@ -14,6 +14,7 @@ from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.agent_view import AgentInput
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.archive import Archive, ArchiveEntry
 from ai4u_edu.recording.checksum import editable_state
 from ai4u_edu.recording.episode import Episode, encode
@@ -111,7 +112,7 @@ class Recorder:
         """
         write = None
         if folder is not None:
-            make_folder(folder, "recorded episodes")
+            make_folder(folder, _("recorded episodes"))
             write = partial(_write, folder)
         return cls(sim, scene=scene.description, episodes=Archive(keep), on_episode=write)
 
@@ -186,7 +187,9 @@ class Recorder:
             try:
                 listener(episode)
             except Exception as error:
-                self.save_problem = f"the last episode could not be saved: {message_of(error)}"
+                self.save_problem = _(
+                    "the last episode could not be saved: {error}", error=message_of(error)
+                )
 
     def _start(self) -> None:
         """Start recording; an episode that has just begun is recorded from its beginning."""

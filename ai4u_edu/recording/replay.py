@@ -6,8 +6,9 @@ from functools import cached_property
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.base.errors import AI4UError, suggest
+from ai4u_edu.base.errors import AI4UError, suggest, text_of
 from ai4u_edu.blocks import Brain, Percept
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.episode import Episode, RecordedDecision
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
@@ -81,12 +82,12 @@ class Replay:
             while not self._player.is_over and self._player.sim.world.ticks < limit:
                 self._player.advance()
         except AI4UError as error:
-            problem = str(error)
+            problem = text_of(error)
         again = recorder.current_episode()
         recorder.listeners.clear()
         recorder.set_enabled(False)
         if again is None:
-            return Verdict(False, 0, f"it can't be compared: {recorder.problem}")
+            return Verdict(False, 0, _("it can't be compared: {problem}", problem=recorder.problem))
         return compare(self.episode, again, problem)
 
     def at(self, step: int, agent: str | None = None) -> ReplayMoment:
@@ -195,7 +196,11 @@ class Replay:
         for name in brains or {}:
             if name not in self.episode.ids:
                 raise RecordingError(
-                    f"brains: no agent has the id {name!r}; {suggest(name, self.episode.ids)}"
+                    _(
+                        "brains: no agent has the id {name!r}; {hint}",
+                        name=name,
+                        hint=suggest(name, self.episode.ids),
+                    )
                 )
         player = Player(self.episode, sim)
         try:
@@ -228,8 +233,14 @@ class Replay:
         count = len(record)
         if not -count <= step < count:
             raise RecordingError(
-                f"agent {record.id!r} took {count} decisions; expected a step from 0 to "
-                f"{count - 1}, got {step}"
+                _(
+                    "agent {id!r} took {count} decisions; expected a step from 0 to {count2}, got "
+                    "{step}",
+                    id=record.id,
+                    count=count,
+                    count2=count - 1,
+                    step=step,
+                )
             )
         step %= count
         if record.begin[step] >= self.verdict.exact_until:
@@ -238,9 +249,12 @@ class Replay:
 
     def _inexact(self) -> str:
         seconds = self.verdict.exact_until / self.episode.scene.world.ticks_per_second
-        return (
-            f"the episode can be played again exactly up to {seconds:.2f} s (tick "
-            f"{self.verdict.exact_until}) and not beyond: {self.verdict.why}"
+        return _(
+            "the episode can be played again exactly up to {seconds:.2f} s (tick {tick}) and not "
+            "beyond: {why}",
+            seconds=seconds,
+            tick=self.verdict.exact_until,
+            why=self.verdict.why,
         )
 
     def _moment(self, index: int, step: int) -> ReplayMoment:

@@ -7,8 +7,10 @@ import numpy as np
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.blocks import Block, Brain
 from ai4u_edu.blocks.block import is_built_in
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.scenes.serialization import is_serializable, to_plain
@@ -87,7 +89,9 @@ def _agent(agent: BasicAgent) -> dict[str, Any]:
     try:
         plain: dict[str, Any] = _plain_numbers(to_plain(given))
     except TypeError as error:
-        raise RecordingError(f"agent {agent.id!r}: {error}") from None
+        raise RecordingError(
+            _("agent {id!r}: {error}", id=agent.id, error=text_of(error))
+        ) from None
     storable = [brain for brain in brains if _is_storable(brain)]
     built_in = [brain for brain in storable if all(is_built_in(type(b)) for b in _blocks(brain))]
     kept = [_plain_numbers(to_plain(brain)) for brain in built_in or storable]
@@ -130,4 +134,4 @@ def _plain_numbers(value: Any) -> Any:
         return {str(key): _plain_numbers(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
         return [_plain_numbers(each) for each in value]
-    raise TypeError(f"expected a parameter that a file can hold, got {value!r}")
+    raise TypeError(_("expected a parameter that a file can hold, got {value}", value=repr(value)))

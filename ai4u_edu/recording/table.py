@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.errors import RecordingError
 
 Form = tuple[tuple[str, int], ...]
@@ -75,21 +76,37 @@ class Table:
             RecordingError: the columns do not fit together.
         """
         for each in forms:
-            names = [name for name, _ in each]
-            if len(set(names)) < len(names) or not all(0 <= width <= 1024 for _, width in each):
+            names = [name for name, _width in each]
+            if len(set(names)) < len(names) or not all(0 <= width <= 1024 for _name, width in each):
                 raise RecordingError(
-                    f"{what}_forms: expected names and how many numbers, got {each}"
+                    _(
+                        "{what}_forms: expected names and how many numbers, got {each}",
+                        what=what,
+                        each=str(each),
+                    )
                 )
         rows = unpack_column(form, np.uint16, f"{what}_form")
         amounts = unpack_column(numbers, np.float64, f"{what}_numbers")
         check_finite(amounts, f"{what}_numbers")
         if len(rows) and int(rows.max()) >= len(forms):
             raise RecordingError(
-                f"{what}_form: expected numbers below {len(forms)}, got {rows.max()}"
+                _(
+                    "{what}_form: expected numbers below {count}, got {value}",
+                    what=what,
+                    count=len(forms),
+                    value=rows.max(),
+                )
             )
         expected = int(_widths(forms)[rows].sum()) if len(rows) else 0
         if len(amounts) != expected:
-            raise RecordingError(f"{what}_numbers: expected {expected} numbers, got {len(amounts)}")
+            raise RecordingError(
+                _(
+                    "{what}_numbers: expected {expected} numbers, got {count}",
+                    what=what,
+                    expected=expected,
+                    count=len(amounts),
+                )
+            )
         return cls([tuple(each) for each in forms], rows, amounts)
 
     def __len__(self) -> int:
@@ -120,7 +137,12 @@ def unpack_column(data: bytes, dtype: npt.DTypeLike, what: str) -> npt.NDArray[A
     kind = np.dtype(dtype)
     if len(data) % kind.itemsize:
         raise RecordingError(
-            f"{what}: expected numbers of {kind.itemsize} bytes, got {len(data)} bytes"
+            _(
+                "{what}: expected numbers of {itemsize} bytes, got {count} bytes",
+                what=what,
+                itemsize=kind.itemsize,
+                count=len(data),
+            )
         )
     shuffled = np.frombuffer(data, np.uint8).reshape(kind.itemsize, -1)
     return shuffled.T.copy().view(kind.newbyteorder("<")).reshape(-1).astype(kind)
@@ -129,7 +151,7 @@ def unpack_column(data: bytes, dtype: npt.DTypeLike, what: str) -> npt.NDArray[A
 def check_finite(column: npt.NDArray[Any], what: str) -> npt.NDArray[Any]:
     """Return a column, or raise a RecordingError if it has a number that is not finite."""
     if not np.isfinite(column).all():
-        raise RecordingError(f"{what}: expected finite numbers")
+        raise RecordingError(_("{what}: expected finite numbers", what=what))
     return column
 
 

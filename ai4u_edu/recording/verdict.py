@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.recording.episode import ENDED, AgentRecord, Episode
 from ai4u_edu.recording.episode_builder import VERSIONS
 
@@ -26,7 +28,7 @@ def compare(there: Episode, here: Episode, problem: str) -> Verdict:
         here: the replayed episode.
         problem: an error that ended the replay; empty if there was none.
     """
-    hint = _other_versions(there)
+    versions = _other_versions(there)
     steps = [0] * len(there.agents)
     changed = there.changed
     for number in there.order.tolist():
@@ -38,45 +40,58 @@ def compare(there: Episode, here: Episode, problem: str) -> Verdict:
         if changed is not None and begin >= changed:
             break
         if step >= len(other) or one.begin[step] != other.begin[step]:
-            why = problem or "it took no decision there"
-            return Verdict(False, begin, f"agent {one.id!r}, decision {step}: {why}{hint}")
+            why = problem or _("it took no decision there")
+            return Verdict(False, begin, _told(one, step, why, versions))
         if changed is not None and (one.end[step] > changed or not one.flags[step] & ENDED):
             continue
         if one.worlds[step] != other.worlds[step]:
-            why = "the bodies were in other places, or moved otherwise"
-            return Verdict(False, begin, f"agent {one.id!r}, decision {step}: {why}{hint}")
+            why = _("the bodies were in other places, or moved otherwise")
+            return Verdict(False, begin, _told(one, step, why, versions))
         why = _difference(one, other, step)
         if why:
-            return Verdict(False, begin + 1, f"agent {one.id!r}, decision {step}: {why}{hint}")
+            return Verdict(False, begin + 1, _told(one, step, why, versions))
     if changed is not None:
-        return Verdict(False, changed, "the world was changed by hand there")
+        return Verdict(False, changed, _("the world was changed by hand there"))
     for one, other in zip(there.agents, here.agents, strict=True):
         if one.firsts.tolist() != other.firsts.tolist():
-            return Verdict(False, 0, f"agent {one.id!r} began with another percept{hint}")
+            began = _("agent {id!r} began with another percept", id=one.id)
+            return Verdict(False, 0, join([began, *versions], "; "))
     return Verdict(True, there.ticks + 1, "")
+
+
+def _told(record: AgentRecord, step: int, why: str, versions: list[str]) -> str:
+    what = _("agent {id!r}, decision {step}: {why}", id=record.id, step=step, why=why)
+    return join([what, *versions], "; ")
 
 
 def _difference(one: AgentRecord, other: AgentRecord, step: int) -> str:
     if one.percepts[step] != other.percepts[step]:
-        return "what it sensed after it was something else"
+        return _("what it sensed after it was something else")
     then, now = one[step], other[step]
     if then == now:
         return ""
     for name in dict.fromkeys((*then.reward_terms, *now.reward_terms)):
         paid, pays = then.reward_terms.get(name), now.reward_terms.get(name)
         if paid != pays:
-            return f"reward term {name!r}: paid {_amount(paid)} then, and {_amount(pays)} now"
-    return f"it ended at tick {then.end} then, and at {now.end} now"
+            return _(
+                "reward term {name!r}: paid {then} then, and {now} now",
+                name=name,
+                then=_amount(paid),
+                now=_amount(pays),
+            )
+    return _("it ended at tick {then} then, and at {now} now", then=then.end, now=now.end)
 
 
 def _amount(paid: float | None) -> str:
-    return "nothing" if paid is None else repr(paid)
+    return _("nothing") if paid is None else repr(paid)
 
 
-def _other_versions(episode: Episode) -> str:
+def _other_versions(episode: Episode) -> list[str]:
     others = [
-        f"{name} {then} (here {VERSIONS[name]})"
+        _("{name} {version} (here {here})", name=name, version=then, here=VERSIONS[name])
         for name, then in episode.versions.items()
         if name in VERSIONS and VERSIONS[name] != then
     ]
-    return f"; it was recorded with {', '.join(others)}" if others else ""
+    if not others:
+        return []
+    return [_("it was recorded with {versions}", versions=join(others, ", "))]

@@ -4,6 +4,7 @@ import threading
 from concurrent.futures import Future, wait
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Archive, ArchiveEntry, RecordingError
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.runtime.runner import Runner
@@ -133,7 +134,7 @@ class ReplayPlayer:
         """
         frame_cache, step = self.frame_cache, self.step
         if frame_cache is None:
-            return _failed("choose an episode first")
+            return _failed(_("choose an episode first"))
         self.cancel()
         # wait for the frame: the replay exists from then on
         frame_cache.snapshot(min(step, max(frame_cache.last, 0)), timeout=None)
@@ -163,9 +164,9 @@ class ReplayPlayer:
     def _load(self, entry: ArchiveEntry | None, number: int, agent: str, step: int | None) -> None:
         if entry is None:
             self.problem = (
-                "nothing of it is recorded yet"
+                _("nothing of it is recorded yet")
                 if number == RUNNING_EPISODE
-                else f"episode {number} is not kept any more"
+                else _("episode {number} is not kept any more", number=number)
             )
             return
         known = agent if agent in entry.episode.ids else None
@@ -234,7 +235,7 @@ class ReplayPlayer:
             if not self._is_current(request_id):
                 return None
             if snapshot is None:
-                self.problem = frame_cache.problem or "there is nothing to see"
+                self.problem = frame_cache.problem or _("there is nothing to see")
                 self.is_playing = False
                 return None
             shown = self._runner.show_past(snapshot, goes_on=goes_on)

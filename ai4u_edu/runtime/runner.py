@@ -14,6 +14,7 @@ from ai4u_edu.agent.block_errors import reason_for_no_decision, sentence_of, sto
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.blocks import Brain, RemoteBrain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Recorder, Replay
 from ai4u_edu.runtime.clock import Clock, EpisodeClock, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
@@ -35,7 +36,7 @@ REST_POLL_S, HELD_POLL_S = 0.1, 0.5
 """Time between two snapshots while the world is paused, and while it is held."""
 STOP_S = 1.0
 """Time that the thread usually has to end; a block that does not return may keep it from that."""
-WORLD_REPLACED = "another world has taken its place; connect again to drive there"
+WORLD_REPLACED = _("another world has taken its place; connect again to drive there")
 """Reason that the scripts of a replaced world are told."""
 
 
@@ -251,7 +252,7 @@ class Runner:
 
         def command() -> None:
             self._check_not_held()
-            for _ in range(ticks):
+            for _tick in range(ticks):
                 self._tick()
                 if self.error or self._stopping:
                     return
@@ -282,7 +283,9 @@ class Runner:
                 self._tick()
             if (agent.episode, agent.steps) == before and not (is_over or self.error):
                 why = reason_for_no_decision(agent)
-                raise NoDecisionError(f"agent {agent.id!r} took no decision: {why}")
+                raise NoDecisionError(
+                    _("agent {id!r} took no decision: {why}", id=agent.id, why=why)
+                )
 
         return self.submit(command)
 
@@ -370,7 +373,9 @@ class Runner:
             ValueError: it is not above 0.
         """
         if not time_scale > 0:
-            raise ValueError(f"time scale: expected a number above 0, got {time_scale}")
+            raise ValueError(
+                _("time scale: expected a number above 0, got {time_scale}", time_scale=time_scale)
+            )
         self.time_scale = time_scale
 
     def advance(self) -> None:
@@ -544,7 +549,7 @@ class Runner:
 
     def _check_not_held(self) -> None:
         if self.is_held:
-            raise NoDecisionError("the teacher has stopped the world; wait until it goes on")
+            raise NoDecisionError(_("the teacher has stopped the world; wait until it goes on"))
 
     def _attempt(self, act: Callable[[], object]) -> None:
         """Call what may raise anything, as a student's block does; the page shows the error."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_frames import CodePlace, calls_of_thread, find_place
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot import SlowTick
 
 logger = logging.getLogger(__name__)
@@ -50,7 +51,8 @@ class Stall:
     @property
     def title(self) -> str:
         """The block, its agent and the line, without the time."""
-        return f"{self.place} ({self.where})" if self.where else str(self.place)
+        title = self.place.title
+        return _("{block} ({place})", block=title, place=self.where) if self.where else title
 
     def __str__(self) -> str:
         """Return a sentence about it.
@@ -59,8 +61,15 @@ class Stall:
         >>> str(Stall(since=3.0, seconds=5.2, place=place))
         "Sensor WallDistance 'wall' of agent '0' has not answered for 5 s (my_blocks.py, line 12)"
         """
-        where = f" ({self.where})" if self.where else ""
-        return f"{self.place} has not answered for {self.seconds:.0f} s{where}"
+        return str(self.text)
+
+    @property
+    def text(self) -> str:
+        """The same, as a text that can be translated."""
+        values = {"block": self.place.title, "seconds": f"{self.seconds:.0f}"}
+        if not self.where:
+            return _("{block} has not answered for {seconds} s", **values)
+        return _("{block} has not answered for {seconds} s ({place})", place=self.where, **values)
 
 
 class TickMonitor:

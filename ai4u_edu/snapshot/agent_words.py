@@ -2,23 +2,24 @@
 
 from ai4u_edu.blocks import Brain, NeuralNetController, ReplayController, ScriptController
 from ai4u_edu.blocks.brains.remote import RemoteBrain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot.types import AgentState
 
 DRIVERS = {
-    NeuralNetController: "A network",
-    ReplayController: "A recording",
-    ScriptController: "A script",
+    NeuralNetController: _("A network"),
+    ReplayController: _("A recording"),
+    ScriptController: _("A script"),
 }
 """Titles of drivers, by the class of their controller."""
 
 SCRIPT_PROBLEMS = {
-    "waiting": "⌛ waits for its script",
-    "late": "⚠ script is late",
-    "lost": "✖ script is lost",
+    "waiting": _("⌛ waits for its script"),
+    "late": _("⚠ script is late"),
+    "lost": _("✖ script is lost"),
 }
 """Texts for agents whose script is not driving them, by the state of the remote brain."""
 
-WITHOUT_EFFECT = "⚠ its script sends what has no effect"
+WITHOUT_EFFECT = _("⚠ its script sends what has no effect")
 """Text for agents whose script makes mistakes."""
 
 
@@ -29,19 +30,19 @@ def title(agent_id: str, body: str) -> str:
     ('Agent 0: robot', 'runner 1')
     """
     alike = agent_id.replace("_", " ") == body.replace("_", " ")
-    return body if alike else f"Agent {agent_id}: {body}"
+    return body if alike else _("Agent {id}: {body}", id=agent_id, body=body)
 
 
 def ending(agent: AgentState) -> str:
     """Return in a few words how an agent's episode ended; empty while it runs."""
     done = agent.terminated or agent.truncated
     if done and agent.succeeded:
-        return "reached the goal"
+        return _("reached the goal")
     if agent.terminated:
-        return "fell" if agent.fell else "episode over"
+        return _("fell") if agent.fell else _("episode over")
     if agent.truncated:
-        return "time is up"
-    return "paused" if agent.paused else ""
+        return _("time is up")
+    return _("paused") if agent.paused else ""
 
 
 def script_problem(agent: AgentState) -> str:
@@ -55,7 +56,12 @@ def script_problem(agent: AgentState) -> str:
 def driver_title(brain: Brain) -> str:
     """Return a brain's title for people, as the beginning of a sentence."""
     if isinstance(brain, RemoteBrain):
-        return "A script elsewhere"
+        return _("A script elsewhere")
     controller = getattr(brain, "controller", brain)
     titles = (title for kind, title in DRIVERS.items() if isinstance(controller, kind))
     return next(titles, type(controller).__name__)
+
+
+def is_network(brain: Brain) -> bool:
+    """Return True if a network decides."""
+    return isinstance(getattr(brain, "controller", brain), NeuralNetController)

@@ -26,18 +26,53 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.blocks.actuators.ground_motion import GroundMotion
 from ai4u_edu.blocks.sensors.ray_sensor import spread
+from ai4u_edu.locale import gettext as _
 
 MIN_VISIBLE = {"cosine": -1.0, "distance": 0.0}
 """Least readings of an OrientationSensor for a visible target."""
 
 SLOT_WORDS = {
-    ("BearingSensor", "sine"): "left?",
-    ("BearingSensor", "cosine"): "ahead?",
-    ("OrientationSensor", "cosine"): "ahead?",
-    ("HeadingSensor", "sine"): "north?",
-    ("HeadingSensor", "cosine"): "east?",
+    ("BearingSensor", "sine"): _("left?"),
+    ("BearingSensor", "cosine"): _("ahead?"),
+    ("OrientationSensor", "cosine"): _("ahead?"),
+    ("HeadingSensor", "sine"): _("north?"),
+    ("HeadingSensor", "cosine"): _("east?"),
 }
 """Names for people of numbers that mathematics names, by the sensor's class and the slot."""
+WORDS = {
+    str(word): word
+    for word in (
+        _("ahead"),
+        _("angle"),
+        _("blue"),
+        _("brightness"),
+        _("colour"),
+        _("column"),
+        _("cosine"),
+        _("distance"),
+        _("down"),
+        _("forward"),
+        _("forward jump"),
+        _("green"),
+        _("grip"),
+        _("heard"),
+        _("jump"),
+        _("left"),
+        _("move"),
+        _("red"),
+        _("right"),
+        _("row"),
+        _("sine"),
+        _("speak"),
+        _("steering"),
+        _("strafe"),
+        _("throttle"),
+        _("turn"),
+        _("turning"),
+        _("width"),
+    )
+}
+"""Names of numbers and actuators that are translated; others are shown as they are."""
 
 POWERS = {
     "forward": ("move_amount",),
@@ -49,6 +84,12 @@ POWERS = {
 """Parameters of a GroundMotion that each number of its action is multiplied by."""
 
 Floats = npt.NDArray[np.float64]
+
+
+def in_words(name: str) -> str:
+    """Return the name of a number for people."""
+    words = name.replace("_", " ")
+    return WORDS.get(words, words)
 
 
 class Window(NamedTuple):
@@ -112,9 +153,7 @@ class SensorInfo:
     @property
     def slot_words(self) -> tuple[str, ...]:
         """Names of one reading's numbers for people; empty if they have none."""
-        return tuple(
-            SLOT_WORDS.get((self.block, slot), slot.replace("_", " ")) for slot in self.slots
-        )
+        return tuple(SLOT_WORDS.get((self.block, slot)) or in_words(slot) for slot in self.slots)
 
 
 class Component(NamedTuple):

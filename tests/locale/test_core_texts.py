@@ -9,6 +9,15 @@ from ai4u_edu import LocalBrain
 from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import RBMoveActuator, Sensor, TouchSensor
 from ai4u_edu.check import check_sensor
+from ai4u_edu.explain import (
+    LIMITS,
+    axes_of_agent,
+    explained,
+    groups_of_agent,
+    middle_of,
+    occlusion,
+    sentence,
+)
 from ai4u_edu.locale import PSEUDO, Catalogue, reader
 from ai4u_edu.scenes import Scene
 
@@ -81,6 +90,22 @@ def test_report_of_a_check_is_in_the_readers_language() -> None:
     assert "passed" in str(report)
     with reader(PSEUDO):
         assert plain_words(str(report)) == []
+
+
+def test_reasons_for_an_action_are_marked() -> None:
+    sim = Scene.load("box_chase").build(brains=lambda _: LocalBrain(controller=_ahead))
+    sim.reset(0)
+    agent = sim.agents[0]
+    groups = groups_of_agent(agent)
+    told = occlusion(_ahead, agent.percept, baseline=middle_of(agent), groups=groups)
+    axes = axes_of_agent(agent, ["move"])
+    assert " because " in sentence(told, axes)
+    for text in (sentence(told, axes), explained(told, axes), LIMITS):
+        assert plain_words(text) == []
+
+
+def _ahead(percept: Any) -> dict[str, list[float]]:
+    return {"move": [float(percept["orientation"][0]), 0, 0, 0]}
 
 
 def plain_words(text: str) -> list[str]:

@@ -1038,6 +1038,8 @@ export interface HelloEvent {
   others: string;
   /** Title of what drives it once the person lets go; empty if nothing does. */
   instead: string;
+  /** True if a network drives the agent now. */
+  is_network: boolean;
 }
 
 /** The page that drives the agent. */

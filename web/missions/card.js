@@ -101,7 +101,7 @@ export class MissionCard {
     if (!driver || driver.control.pages < 2 || hasProgram) return false;
     const { hello, control } = driver;
     const isOthers = control.driver !== null && control.driver !== hello.you;
-    return isOthers || (hello.others !== "" && !/network/i.test(hello.others));
+    return isOthers || (hello.others !== "" && !hello.is_network);
   }
 
   /** @param {MissionPart} part */

@@ -45,7 +45,7 @@ const query = new URLSearchParams(location.search);
 const agent = query.get("agent");
 
 /** @type {Omit<HelloEvent, "type">} */
-let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick: false, others: "", instead: "" };
+let hello = { you: 0, agent, keys: {}, captions: {}, brain: "", name: "", stick: false, others: "", instead: "", is_network: false };
 /** @type {Omit<SeatEvent, "type">} */
 let control = { driver: null, pages: 1 };
 /** @type {StateEvent | null} */
@@ -248,7 +248,7 @@ function followMotor() {
 
 /** Return NETWORK if a network drives the agent, else an empty text. */
 function otherDriver() {
-  return /network/i.test(hello.others || hello.brain) ? NETWORK : "";
+  return hello.is_network ? NETWORK : "";
 }
 
 /** Return true while a teacher holds the world, or a race counts down. */

@@ -17,6 +17,7 @@ from ai4u_edu.explain.page import messages as m
 from ai4u_edu.explain.page.commands import plain_action
 from ai4u_edu.explain.policy import Policy
 from ai4u_edu.explain.statefulness import dependence_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer
@@ -78,11 +79,11 @@ class CompareCommands:
         entry = None if player.archive is None else player.archive.find(player.number or 0)
         is_person = entry is not None and entry.is_person
         found: list[dict[str, Any]] = [
-            {"value": WHAT_IT_DID, "text": "What I did" if is_person else "What it did"}
+            {"value": WHAT_IT_DID, "text": _("What I did") if is_person else _("What it did")}
         ]
         with suppress(AI4UError):
             self._policy(agent_id)
-            found.append({"value": "", "text": "The driver that it has now"})
+            found.append({"value": "", "text": _("The driver that it has now")})
         found += [
             {"value": each.name, "text": each.title}
             for each in editor.drivers(agent_id)
@@ -97,7 +98,7 @@ class CompareCommands:
 def _policy(editor: SceneEditor, agent_id: str, driver: str) -> Policy:
     brain = editor.driver_brain(agent_id, driver)
     if not isinstance(brain, LocalBrain):
-        raise NotExplainableError("a script elsewhere can't be asked about recorded percepts")
+        raise NotExplainableError(_("a script elsewhere can't be asked about recorded percepts"))
     return Policy(brain)
 
 
@@ -109,8 +110,12 @@ def _states(frame_cache: FrameCache, agent_id: str, timeout: float) -> list[Agen
     """
     if frame_cache.record.id != agent_id:
         raise SetupError(
-            f"the chosen episode is shown step by step for agent {frame_cache.record.id!r}, got "
-            f"agent {agent_id!r}; choose the episode again"
+            _(
+                "the chosen episode is shown step by step for agent {id!r}, got agent {agent_id}; "
+                "choose the episode again",
+                id=frame_cache.record.id,
+                agent_id=repr(agent_id),
+            )
         )
     found: list[AgentState] = []
     for step in range(len(frame_cache.record)):
@@ -118,7 +123,7 @@ def _states(frame_cache: FrameCache, agent_id: str, timeout: float) -> list[Agen
             break  # from there on it can't be replayed exactly
         snapshot = frame_cache.snapshot(step, timeout=timeout)
         if snapshot is None:
-            raise SetupError(frame_cache.problem or "the episode takes too long to replay")
+            raise SetupError(frame_cache.problem or _("the episode takes too long to replay"))
         found.append(next(agent for agent in snapshot.agents if agent.id == agent_id))
     return found
 

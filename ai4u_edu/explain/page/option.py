@@ -27,6 +27,7 @@ from ai4u_edu.explain.page.policy_maps import PolicyMaps
 from ai4u_edu.explain.page.stand_in import StandIns
 from ai4u_edu.explain.page.watch import Watching
 from ai4u_edu.explain.sentence import MIN_SHARE
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.panel import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
@@ -39,12 +40,13 @@ from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.snapshot import AgentState, Snapshot
+from ai4u_edu.snapshot.block_info import in_words
 
 _TOP_SLOTS = 6
 """Most slots in the list of those that matter most."""
 _SOURCES = {
-    "critic": "The colours are the points that its critic expects from there; it may be wrong.",
-    "rollouts": "The colours are the points of one try from there; later points count less.",
+    "critic": _("The colours are the points that its critic expects from there; it may be wrong."),
+    "rollouts": _("The colours are the points of one try from there; later points count less."),
 }
 """The sources of values in words."""
 
@@ -77,7 +79,7 @@ def _why_part(why: Why) -> dict[str, Any]:
         "also": why.also,
         "explained": why.explained,
         "limits": LIMITS,
-        "components": [axis.name.replace("_", " ") for axis in why.axes],
+        "components": [in_words(axis.name) for axis in why.axes],
         "slots": slots,
         "top": [slots[index] for index in order if sizes[index] >= MIN_SHARE],
     }
@@ -244,7 +246,7 @@ class SceneSource:
         try:
             return self._runner.submit(export).result(EXPORT_TIMEOUT_S)
         except (TimeoutError, CancelledError):
-            raise AI4UError("The world does not answer: a block of it may not return.") from None
+            raise AI4UError(_("The world does not answer: a block of it may not return.")) from None
 
 
 class EpisodeBaseline:
@@ -273,7 +275,11 @@ class EpisodeBaseline:
             percepts = _percepts(frame_cache, agent_id)
             if percepts is None:
                 return None
-            words = f"the mean of {len(percepts)} percepts of episode {frame_cache.number}"
+            words = _(
+                "the mean of {count} percepts of episode {number}",
+                count=len(percepts),
+                number=frame_cache.number,
+            )
             is_long = len(percepts) >= MIN_MEAN_PERCEPTS
             self._found = NamedBaseline(words, mean_of(percepts)) if is_long else None
             self._key = frame_cache, agent_id

@@ -13,6 +13,7 @@ from ai4u_edu.explain.live_maps import MapChoice
 from ai4u_edu.explain.map_maker import faced_things
 from ai4u_edu.explain.page import messages as m
 from ai4u_edu.explain.page.choice import OPTION, HasChoices, choice_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.drivers import Driver
 from ai4u_edu.page.editing.dry_run import IdleBrain
@@ -41,8 +42,8 @@ HANDICAP_S = 4.0
 NO_HANDICAP_S = 10.0
 """Time (s) of a network's drive from which on its ghost is not slowed any more."""
 
-NO_NETWORK = "there is no trained network for this scene; teach the robot in the tab Teach first"
-PROGRAM_DRIVES = "a program drives this robot now; stop it first"
+NO_NETWORK = _("there is no trained network for this scene; teach the robot in the tab Teach first")
+PROGRAM_DRIVES = _("a program drives this robot now; stop it first")
 
 
 class WatchableNetwork(Struct, frozen=True):
@@ -141,7 +142,7 @@ class Watching:
         }
         """Handlers by the type of their command."""
         if editor is not None:
-            editor.listeners.append(lambda _: self._forget_gone())
+            editor.listeners.append(lambda _scene: self._forget_gone())
 
     def is_on(self, agent_id: str) -> bool:
         """Return True while a network that is watched drives an agent."""
@@ -197,7 +198,7 @@ class Watching:
         network = self._chosen(editor, agent_id, command.network, context.clock())
         drive = self._persons_drive() if command.against_my_drive else None
         if command.against_my_drive and drive is None:
-            raise SetupError("no drive of yours is kept in this scene; drive first")
+            raise SetupError(_("no drive of yours is kept in this scene; drive first"))
         runner = self._runner
         seed = runner.sim.world.seeds.seed if drive is None else drive.episode.seed
 
@@ -215,7 +216,7 @@ class Watching:
         if drive is None:
             context.ghosts.race(None)
         else:
-            context.ghosts.race(drive.episode, "your drive", "you")
+            context.ghosts.race(drive.episode, _("your drive"), _("you"))
             self._race = _race_of(drive.episode, agent_id, "drive")
         await page.result(runner.submit(lambda: self._begin(agent_id, network.name, brain, lasts)))
         await page.result(runner.reset(seed))
@@ -224,7 +225,7 @@ class Watching:
         faced = _first_faced(runner, agent_id)
         choice = choice_of(page.view)._replace(watched=MapChoice(True, True, faced))
         page.view.choose(OPTION, choice, "why", "watch")
-        return Answer("The network drives.")
+        return Answer(_("The network drives."))
 
     async def _stop(self, page: Page, _command: m.StopWatching) -> Answer:
         agent_id = page.view.agent
@@ -232,7 +233,7 @@ class Watching:
         page.context.ghosts.race(None)
         self._race = None
         await page.result(self._runner.try_again())
-        return Answer("It is yours again.")
+        return Answer(_("It is yours again."))
 
     async def _race_network(self, page: Page, command: m.RaceNetwork) -> Answer:
         context, agent_id = page.context, page.view.agent
@@ -243,12 +244,12 @@ class Watching:
         await self._end(page, agent_id)
         context.player.cancel()
         stretch = _stretch(episode)
-        label = "network" if stretch == 1.0 else "network, slowed"
-        context.ghosts.race(episode, "the network", label, stretch=stretch)
+        label = _("network") if stretch == 1.0 else _("network, slowed")
+        context.ghosts.race(episode, _("the network"), label, stretch=stretch)
         self._race = _race_of(episode, agent_id, "network", stretch)
         await page.result(runner.reset(seed))
         await page.result(runner.resume())
-        return Answer("Race the network: it starts as you do.")
+        return Answer(_("Race the network: it starts as you do."))
 
     async def _end(self, page: Page, agent_id: str) -> None:
         """Give an agent back to the driver that the scene names, if it is watched."""
@@ -263,7 +264,9 @@ class Watching:
         networks = self._networks(editor, agent_id, now)
         chosen = next((each for each in networks if name in ("", each.name)), None)
         if chosen is None:
-            raise SetupError(NO_NETWORK if not networks else "this network is not there any more")
+            raise SetupError(
+                NO_NETWORK if not networks else _("this network is not there any more")
+            )
         return chosen
 
     def _networks(self, editor: SceneEditor, agent_id: str, now: float) -> list[Driver]:
@@ -358,7 +361,7 @@ def _driven(editor: SceneEditor, agent_id: str, network: str, seed: int) -> Epis
         AI4UError: the network does not fit the agent.
     """
     if reason := editor.reason_against_driver(agent_id, network):
-        raise SetupError(f"this network can't drive this robot: {reason}")
+        raise SetupError(_("this network can't drive this robot: {reason}", reason=reason))
     scene, brain = editor.scene, editor.driver_brain(agent_id, network)
     sim = scene.build(brains=_brains(scene, agent_id, brain))
     recorder = Recorder(sim, scene=scene.description)
@@ -368,7 +371,7 @@ def _driven(editor: SceneEditor, agent_id: str, network: str, seed: int) -> Epis
         sim.tick()
     episode = recorder.current_episode()
     if episode is None:
-        raise SetupError(recorder.problem or "the drive could not be recorded")
+        raise SetupError(recorder.problem or _("the drive could not be recorded"))
     return episode
 
 

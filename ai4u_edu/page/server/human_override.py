@@ -9,7 +9,7 @@ from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.page.server.bindings import keyboard_brain
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot.agent_words import driver_title
+from ai4u_edu.snapshot.agent_words import driver_title, is_network
 
 
 class HumanOverride:
@@ -46,6 +46,11 @@ class HumanOverride:
         """Title of the driver that a person would replace; empty if a person drives directly."""
         agent = self._agent
         return "" if keys_of(agent) else driver_title(agent.brain)
+
+    @property
+    def is_network(self) -> bool:
+        """True if a network drives the agent."""
+        return is_network(self._agent.brain)
 
     @property
     def next_driver(self) -> str:

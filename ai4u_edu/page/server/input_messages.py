@@ -103,6 +103,8 @@ class HelloEvent(InputEvent, frozen=True, tag="hello"):
     """Title of the network or script that drives the agent now; empty if a person may."""
     instead: str
     """Title of what drives it once the person lets go; empty if nothing does."""
+    is_network: bool
+    """True if a network drives the agent now."""
 
 
 class SeatEvent(InputEvent, frozen=True, tag="seat"):
@@ -203,6 +205,7 @@ def hello_event(agent: BasicAgent, number: int, override: HumanOverride) -> Hell
         stick=has_stick(brain),
         others=override.current_driver,
         instead=override.next_driver,
+        is_network=override.is_network,
     )
 
 

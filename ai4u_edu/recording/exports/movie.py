@@ -13,6 +13,7 @@ from PIL import Image
 
 from ai4u_edu.base.atomic_write import partial_file, reason
 from ai4u_edu.base.optional_deps import need
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.replay import Replay
 from ai4u_edu.snapshot.raster import draw_snapshot
@@ -77,16 +78,24 @@ def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
         with partial_file(path) as partial:
             message = _encode(get_ffmpeg_exe(), frames, _rate(replay) / every, partial)
             if message is not None:
-                raise RecordingError(f"{path}: the video can't be written: {message}")
+                raise RecordingError(
+                    _(
+                        "{path}: the video can't be written: {message}",
+                        path=str(path),
+                        message=message,
+                    )
+                )
     except OSError as error:
-        raise RecordingError(f"{path}: the video can't be written: {reason(error)}") from None
+        raise RecordingError(
+            _("{path}: the video can't be written: {reason}", path=str(path), reason=reason(error))
+        ) from None
     return path
 
 
 def _encode(ffmpeg: str, frames: Iterator[Frame], fps: float, path: Path) -> str | None:
     """Encode frames with ffmpeg; return its message if it fails, and None otherwise."""
     first = next(frames)
-    height, width, _ = first.shape
+    height, width = first.shape[:2]
     command = [ffmpeg, "-y", "-loglevel", "error"]
     command += ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}"]
     command += ["-r", str(fps), "-i", "-"]
