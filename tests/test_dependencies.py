@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parent.parent
 OWN = {"ai4u_edu", "tests"}
 NOT_IMPORTED = {
     "jupyterlab",  # started as a program
+    "jupyterlab-language-pack-pt-br",  # jupyterlab finds it
     "ipykernel",  # the kernel that jupyterlab starts
     "jupyterhub",  # starts a student's server
     "jupyter-server-proxy",  # brings worlds into the browser

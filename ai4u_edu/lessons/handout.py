@@ -5,6 +5,7 @@ import json
 import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
@@ -16,7 +17,9 @@ from ai4u_edu.locale import SOURCE
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
 """Settings of JupyterLab that keep it from asking to fetch news from the internet."""
-LAB_PLUGINS = {"@jupyterlab/docmanager-extension:plugin": {"autosaveInterval": 10}}
+LAB_PLUGINS: dict[str, dict[str, Any]] = {
+    "@jupyterlab/docmanager-extension:plugin": {"autosaveInterval": 10}
+}
 """Settings of JupyterLab's plugins: notebooks are saved every 10 s, in place of 120 s."""
 BOOK = "handed-out.json"
 """File in the hidden folder with the version of each notebook that was handed out."""
@@ -57,7 +60,7 @@ def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
         config.mkdir(parents=True, exist_ok=True)
         write_atomically(config / "page_config.json", json.dumps(LAB, indent=1))
         overrides = config / "default_setting_overrides.json"
-        write_atomically(overrides, json.dumps(LAB_PLUGINS, indent=1))
+        write_atomically(overrides, json.dumps(_lab_plugins(language), indent=1))
         book = _read(folder / FOLDER / BOOK)
         for lesson in lessons():
             text = dumps(translated_lesson(lesson.name, lesson.cells, language))
@@ -77,6 +80,13 @@ def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
     except OSError as error:
         raise SetupError(f"expected to write into {folder}, and couldn't: {error}") from None
     return done
+
+
+def _lab_plugins(language: str) -> dict[str, dict[str, Any]]:
+    """Return settings of JupyterLab's plugins, with the course's language."""
+    if language == SOURCE:
+        return LAB_PLUGINS
+    return {**LAB_PLUGINS, "@jupyterlab/translation-extension:plugin": {"locale": language}}
 
 
 def lab_config(folder: Path) -> Path:

@@ -222,3 +222,12 @@ def test_a_handed_out_course_is_saved_every_ten_seconds(tmp_path: Path) -> None:
         answer = urllib.request.urlopen(url + setting, timeout=LIMIT_S)  # noqa: S310 - our own
         schema = json.load(answer)["schema"]["properties"]
     assert (schema["autosave"]["default"], schema["autosaveInterval"]["default"]) == (True, 10)
+
+
+def test_jupyterlab_speaks_the_language_of_the_course(chromium: Browser, tmp_path: Path) -> None:
+    hand_out(tmp_path, "pt_BR")
+    with lab(tmp_path) as url:
+        page = new_page(chromium, 1280, 900)
+        page.goto(f"{url}lab/tree/02_drive.ipynb")
+        page.get_by_text("Nome", exact=True).wait_for()  # a column of its files
+        page.context.close()
