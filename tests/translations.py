@@ -80,7 +80,7 @@ MAX_COUNT_TRIED = 1000
 English = str | tuple[str, str]
 """A text, or the two of a text that counts something."""
 Keywords = Mapping[str, tuple[int, ...] | None]
-PYTHON_KEYWORDS: Keywords = {"_": None, "gettext": None, "ngettext": (1, 2)}
+PYTHON_KEYWORDS: Keywords = {"_": None, "deferred": None, "gettext": None, "ngettext": (1, 2)}
 PAGE_KEYWORDS: Keywords = {"t": None, "tn": (1, 2)}
 SITE_KEYWORDS: Keywords = {"words": None}
 _VALUES = re.compile(r"\{[^{}]*\}|%\d")  # the second are Blockly's
@@ -114,6 +114,8 @@ def domains() -> list[Domain]:
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
     python.texts += [(text, "ai4u_edu/page/panel") for text in form_texts()]
     page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
+    # a program runs in the page, too
+    page.texts += _in_code("ai4u_edu/program", "**.py", "python", PYTHON_KEYWORDS)
     library = Domain(LIBRARY, [*_scene_texts(), *_mission_texts()])
     site = Domain(SITE, list(_in_code("tests/docs_site", "*_pages.py", "python", SITE_KEYWORDS)))
     return [python, page, library, *_lesson_domains(), *_page_domains(), site]

@@ -14,8 +14,12 @@ from typing import Any, Self
 from ai4u_edu.agent.block_frames import line_at
 from ai4u_edu.base.syntax import parsed
 from ai4u_edu.lessons.student_errors import is_students, line_words
+from ai4u_edu.locale import Text
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.program.endless import loop_around, suspicion, why_endless
+from ai4u_edu.program.texts import make_texts_with
+
+make_texts_with(Text)
 
 CALL_LIMIT_S = 5.0
 """Longest time that one call of a student's function may take."""

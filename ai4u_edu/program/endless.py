@@ -3,6 +3,8 @@
 import ast
 from types import CodeType
 
+from ai4u_edu.program.texts import gettext as _
+
 GROWS = ("append", "extend", "insert", "add")
 """Methods with which a loop adds to what it goes through."""
 
@@ -41,18 +43,19 @@ def why_endless(loop: ast.While | ast.For | None, *, is_in_decision: bool) -> st
         is_in_decision: True if a robot waits for the call's answer.
     """
     if loop is None:
-        return "Something in it never ends, or takes very long."
+        return _("Something in it never ends, or takes very long.")
     if isinstance(loop, ast.For):
         growing = _growing(loop)
         if growing:
-            return (
-                f"The loop never ends: it adds to `{growing}` while it goes through it. Add to "
-                "another list."
+            return _(
+                "The loop never ends: it adds to `{name}` while it goes through it. Add to another "
+                "list.",
+                name=growing,
             )
-        return "The loop never ends, or takes very long."
+        return _("The loop never ends, or takes very long.")
     if is_in_decision:
-        return "The robot asks it again at each decision: use `if`, not `while`."
-    return "The loop never ends: its condition stays true."
+        return _("The robot asks it again at each decision: use `if`, not `while`.")
+    return _("The loop never ends: its condition stays true.")
 
 
 def _growing(loop: ast.While | ast.For) -> str:
@@ -85,5 +88,5 @@ def line_at(code: CodeType, instruction: int) -> int:
         code: the function's.
         instruction: offset of the instruction, such as ``frame.f_lasti``.
     """
-    lines = [line for start, _, line in code.co_lines() if line and start <= instruction]
+    lines = [line for start, _end, line in code.co_lines() if line and start <= instruction]
     return lines[-1] if lines else code.co_firstlineno

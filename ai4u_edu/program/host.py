@@ -17,7 +17,8 @@ A mistake is returned as ``{"ok": false, "text", "line", "kind"}`` with printed,
 as far as they are known; it is never raised. ``begin`` and ``load`` return what was printed too.
 ``stops`` is a list of lines to stop at, 0 for the first one that runs; from the first of them on,
 ``moments`` has each line that ran with the variables before it, as a page shows them one by one.
-``watch`` takes a function, which is called with a line before it runs.
+``translate`` takes the page's catalogue. ``watch`` takes a function, which is called with a line
+before it runs.
 
 ``call`` calls a function of the program, for whoever loaded it with ``has_entry`` false. Arguments
 and value are JSON texts in the JSON text, so that the page's JavaScript does not make 1 of 1.0. An
@@ -44,6 +45,8 @@ from ai4u_edu.program.mistakes import ProgramError
 from ai4u_edu.program.output import PrintedOutput
 from ai4u_edu.program.program import Program
 from ai4u_edu.program.reading import Reading, readings_of
+from ai4u_edu.program.texts import gettext as _
+from ai4u_edu.program.texts import translate_with
 from ai4u_edu.program.tracing import DECISION_LIMIT_S, ReportLine
 from ai4u_edu.program.words import shown
 
@@ -69,6 +72,16 @@ def watch(report_line: ReportLine) -> None:
     """
     global _report_line
     _report_line = report_line
+
+
+def translate(text: str) -> str:
+    """Translate the sentences of this package from now on.
+
+    Args:
+        text: JSON with the translations by the sentences in English.
+    """
+    translate_with(json.loads(text))
+    return "{}"
 
 
 def load(text: str) -> str:
@@ -173,7 +186,7 @@ def encoded(value: Any, depth: int = MAX_VALUE_DEPTH) -> Any:
 
 def _asked(ask: Callable[[Program], Any]) -> str:
     if _program is None or _program.output is None:
-        return _failed(ProgramError("no program is loaded; load one first"), "")
+        return _failed(ProgramError(_("no program is loaded; load one first")), "")
     try:
         values = ask(_program)
     except ProgramError as error:

@@ -7,12 +7,14 @@ from typing import Any
 
 from ai4u_edu.program.endless import line_at
 from ai4u_edu.program.reading import MissingReadingError, Reading, Readings
+from ai4u_edu.program.texts import deferred
+from ai4u_edu.program.texts import gettext as _
 from ai4u_edu.program.words import nearest, shorten, shown, suggest
 
 MAX_TEXT_CHARS = 500
 """An exception's own text may be of any length."""
-NOTHING_RETURNED = "Your function returned nothing (None). Is `return` missing?"
-NO_NUMPY = (
+NOTHING_RETURNED = deferred("Your function returned nothing (None). Is `return` missing?")
+NO_NUMPY = deferred(
     "numpy is not there in the page. A reading can do without: it has .min(), .max(), .sum(), "
     ".mean(), .argmin() and .argmax(), and `import math` has sin, cos and sqrt."
 )
@@ -23,81 +25,106 @@ _PARAMETERS = re.compile(
 _SYNTAX = (
     (
         r"indented block after (?P<what>.+?)(?: definition| statement)? on line (?P<line>\d+)",
-        "This line is inside the {what} of line {line}. Put four more spaces in front of it.",
+        deferred(
+            "This line is inside the {what} of line {line}. Put four more spaces in front of it."
+        ),
     ),
     (
         r"unexpected indent",
-        (
+        deferred(
             "This line begins with more spaces than the line before it: expected "
             "as many, unless that one ends with a colon (:)."
         ),
     ),
     (
         r"unindent does not match",
-        (
+        deferred(
             "This line begins with a number of spaces that no line above "
             "has: expected as many as the line that it belongs with."
         ),
     ),
     (
         r"inconsistent use of tabs",
-        "This line begins with tabs, and others with spaces: expected spaces everywhere.",
+        deferred("This line begins with tabs, and others with spaces: expected spaces everywhere."),
     ),
     (
         r"expected ':'",
-        "A colon (:) is missing at the end of this line, or before what stands after it.",
+        deferred("A colon (:) is missing at the end of this line, or before what stands after it."),
     ),
-    (r"'(?P<what>[(\[{])' was never closed", "The bracket {what} in this line is never closed."),
-    (r"unmatched '(?P<what>.)'", "There is a bracket {what} in this line that was never opened."),
+    (
+        r"'(?P<what>[(\[{])' was never closed",
+        deferred("The bracket {what} in this line is never closed."),
+    ),
+    (
+        r"unmatched '(?P<what>.)'",
+        deferred("There is a bracket {what} in this line that was never opened."),
+    ),
     (
         r"closing parenthesis '(?P<what>.)' does not match opening parenthesis '(?P<other>.)'",
-        "The bracket {other} is closed by {what}: expected brackets of the same kind.",
+        deferred("The bracket {other} is closed by {what}: expected brackets of the same kind."),
     ),
     (
         r"unterminated (?:triple-quoted )?f?-?string",
-        "A text begins in this line and does not end: expected a quote (\" or ') behind it.",
+        deferred(
+            "A text begins in this line and does not end: expected a quote (\" or ') behind it."
+        ),
     ),
     (
         r"Maybe you meant '==' (?:or ':='|instead of '=')|perhaps you meant \"==\"",
-        "One = stores a value, and two compare: expected ==, or a name on the left of the =.",
+        deferred(
+            "One = stores a value, and two compare: expected ==, or a name on the left of the =."
+        ),
     ),
     (
         r"cannot assign to|illegal expression for augmented assignment",
-        "Only a name can get a value: expected a name on the left of the =.",
+        deferred("Only a name can get a value: expected a name on the left of the =."),
     ),
     (
         r"'(?P<what>break|continue)' (?:outside loop|not properly in loop)",
-        "`{what}` stands outside of a loop: expected it below a `for` or a `while`.",
+        deferred("`{what}` stands outside of a loop: expected it below a `for` or a `while`."),
     ),
     (
         r"invalid non-printable character",
-        "This line has a character that can't be seen, perhaps from a copy: type the line again.",
+        deferred(
+            "This line has a character that can't be seen, perhaps from a copy: type the line "
+            "again."
+        ),
     ),
     (
         r"invalid decimal literal",
-        "A number is followed by a letter: names begin with a letter, and a number has none.",
+        deferred(
+            "A number is followed by a letter: names begin with a letter, and a number has none."
+        ),
     ),
-    (r"leading zeros in decimal", "A number can't begin with a 0: write 5 in place of 05."),
+    (
+        r"leading zeros in decimal",
+        deferred("A number can't begin with a 0: write 5 in place of 05."),
+    ),
     (
         r"unexpected character after line continuation",
-        "There is a \\ in this line that does not belong there, or something stands behind it.",
+        deferred(
+            "There is a \\ in this line that does not belong there, or something stands behind it."
+        ),
     ),
-    (r"Perhaps you forgot a comma", "Something is missing between two values: perhaps a comma."),
+    (
+        r"Perhaps you forgot a comma",
+        deferred("Something is missing between two values: perhaps a comma."),
+    ),
     (
         r"'return' outside function",
-        (
+        deferred(
             "`return` stands outside of a function: begin the line with "
             "four spaces if it belongs to the function above."
         ),
     ),
-    (r"Missing parentheses in call to 'print'", "`print` needs brackets: print(...)."),
+    (r"Missing parentheses in call to 'print'", deferred("`print` needs brackets: print(...).")),
     (
         r"invalid character '(?P<what>.)'",
-        "Python does not know the character {what}: perhaps it was copied from a text.",
+        deferred("Python does not know the character {what}: perhaps it was copied from a text."),
     ),
     (
         r"^invalid syntax$",
-        (
+        deferred(
             "Python can't read this line. Is a bracket, a comma or a colon missing "
             "in it, or in the line above?"
         ),
@@ -124,7 +151,9 @@ class ProgramError(Exception):
         self.kind = kind
 
     def __str__(self) -> str:
-        return f"line {self.line}: {self.text}" if self.line else self.text
+        if not self.line:
+            return str(self.text)
+        return str(_("line {line}: {text}", line=self.line, text=self.text))
 
 
 def syntax_mistake(error: SyntaxError) -> ProgramError:
@@ -141,8 +170,9 @@ def syntax_mistake(error: SyntaxError) -> ProgramError:
     for pattern, text in _SYNTAX:
         found = re.search(pattern, said)
         if found:
-            return ProgramError(text.format(**found.groupdict()), error.lineno or 0, kind)
-    text = f"Python can't read this line: {shorten(said, MAX_TEXT_CHARS).rstrip('.?!')}."
+            return ProgramError(_(text, **found.groupdict()), error.lineno or 0, kind)
+    why = shorten(said, MAX_TEXT_CHARS).rstrip(".?!")
+    text = _("Python can't read this line: {why}.", why=why)
     return ProgramError(text, error.lineno or 0, kind)
 
 
@@ -173,57 +203,75 @@ def _sentence(
             return said, "wrong-key"
         case UnboundLocalError():
             # its name is in the text alone
-            name = found[1] if (found := re.search(r"variable '([^']+)'", said)) else "it"
-            text = f"{name!r} has no value yet in this function. To change a variable from outside"
-            return f"{text} it, write `global {name}` as the function's first line.", "unknown-name"
+            name = found[1] if (found := re.search(r"variable '([^']+)'", said)) else _("it")
+            text = _(
+                "{name!r} has no value yet in this function. To change a variable from outside it, "
+                "write `global {name}` as the function's first line.",
+                name=name,
+            )
+            return text, "unknown-name"
         case NameError() if error.name and error.name in quoted:
-            text = f'nothing is called {error.name!r}; did you mean "{error.name}", in quotes?'
+            text = _(
+                'nothing is called {name!r}; did you mean "{name}", in quotes?', name=error.name
+            )
             return text, "unknown-name"
         case NameError() if error.name:
-            return f"nothing is called {error.name!r}; {_near(error.name, names)}", "unknown-name"
+            hint = _near(error.name, names)
+            text = _("nothing is called {name!r}; {hint}", name=error.name, hint=hint)
+            return text, "unknown-name"
         case AttributeError() if error.name:
             return _no_attribute(error.obj, error.name), "attribute"
         case RecursionError():
-            return "A function calls itself again and again, without an end.", "recursion"
+            return _("A function calls itself again and again, without an end."), "recursion"
         case MemoryError():
-            return "The program needs more memory than there is.", "memory"
+            return _("The program needs more memory than there is."), "memory"
         case ImportError() if error.name == "numpy":
-            return NO_NUMPY, "numpy"
+            return _(NO_NUMPY), "numpy"
         case ImportError():
-            return f"Your code stopped at an import: {said}.", "import"
+            return _("Your code stopped at an import: {why}.", why=said), "import"
         case SystemExit():
-            return "Your code ended the program; expected `return` with an action.", "error"
+            return _("Your code ended the program; expected `return` with an action."), "error"
         case TypeError() if "'Readings' object is not callable" in said:
-            return 'a reading is taken with square brackets, as in percept["name"]', "error"
+            return _('a reading is taken with square brackets, as in percept["name"]'), "error"
         case TypeError() if _PARAMETERS.search(said):
-            return f"{said}: compare the names in the brackets after `def`.", "parameters"
-    between = ": " if said else ""
-    return f"Your code stopped with {type(error).__name__}{between}{said}.", "error"
+            text = _("{error}: compare the names in the brackets after `def`.", error=said)
+            return text, "parameters"
+    name = type(error).__name__
+    if not said:
+        return _("Your code stopped with {error}.", error=name), "error"
+    return _("Your code stopped with {error}: {text}.", error=name, text=said), "error"
 
 
 def _near(name: str, names: Iterable[str]) -> str:
     near = nearest(name, {*names, *vars(builtins)})
     if near:
-        return f"did you mean {near!r}?"
-    return "a name gets its value with =, and a text stands in quotes"
+        return _("did you mean {name!r}?", name=near)
+    return _("a name gets its value with =, and a text stands in quotes")
 
 
 def _no_attribute(owner: Any, name: str) -> str:
     if isinstance(owner, Readings):
         near = nearest(name, owner) or "name"
-        return f'a reading is taken with brackets and quotes: percept["{near}"]'
+        return _('a reading is taken with brackets and quotes: percept["{name}"]', name=near)
     known = [each for each in dir(type(owner)) if not each.startswith("_")]
     if isinstance(owner, Reading):
-        return f"a reading has no {name!r}; {suggest(name, known)}"
+        return _("a reading has no {name!r}; {hint}", name=name, hint=suggest(name, known))
     if owner is None:
-        return f"None has no {name!r}: the value before the dot is nothing. Is `return` missing?"
+        return _(
+            "None has no {name!r}: the value before the dot is nothing. Is `return` missing?",
+            name=name,
+        )
     near = nearest(name, known)
-    hint = f"; did you mean {near!r}?" if near else ""
     what = type(owner).__name__ if type(owner).__name__ != "module" else shown(owner)
-    return f"{what} has no {name!r}{hint}"
+    if not near:
+        return _("{owner} has no {name!r}", owner=what, name=name)
+    return _("{owner} has no {name!r}; did you mean {near!r}?", owner=what, name=name, near=near)
 
 
 def _text_of(error: BaseException) -> str:
+    said = error.args[0] if len(error.args) == 1 else None
+    if isinstance(said, str) and type(said) is not str:
+        return said  # one of this package's sentences, which is translated later
     try:
         return shorten(str(error), MAX_TEXT_CHARS).removesuffix(".")
     except Exception:  # a text of the program's own class

@@ -4,12 +4,15 @@ import builtins
 import sys
 from typing import Any
 
+from ai4u_edu.program.texts import deferred
+from ai4u_edu.program.texts import gettext as _
+
 MAX_DECISION_CHARS = 2_000
 """Characters that one decision may print."""
 MAX_TOTAL_CHARS = 200_000
 """Characters that all decisions since the program was loaded may print."""
-CUT = "\n... (cut: a decision may print 2,000 characters)\n"
-END = "\n... (nothing more is printed until the program is run again)\n"
+CUT = deferred("... (cut: a decision may print 2,000 characters)")
+END = deferred("... (nothing more is printed until the program is run again)")
 
 
 class PrintedOutput:
@@ -71,7 +74,7 @@ class PrintedOutput:
         self._left -= len(piece)
         self._total -= len(piece)
         if self._total <= 0:
-            self._pieces.append(END)
+            self._pieces.append(f"\n{_(END)}\n")
         elif len(piece) < len(text):
             self._left = 0
-            self._pieces.append(CUT)
+            self._pieces.append(f"\n{_(CUT)}\n")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from ai4u_edu.program.mistakes import NO_NUMPY, ProgramError
 from ai4u_edu.program.standins import NAMES
+from ai4u_edu.program.texts import gettext as _
 
 HOOKS = ("on_setup", "on_reset")
 """Methods of a Controller that are given the agent and the world."""
@@ -45,18 +46,22 @@ def _imports(tree: ast.Module) -> Iterator[ProgramError]:
         else:
             continue
         for name in names:
-            top, _, rest = name.partition(".")
+            top, _dot, rest = name.partition(".")
             if top == "numpy":
-                yield ProgramError(NO_NUMPY, node.lineno, "numpy")
+                yield ProgramError(_(NO_NUMPY), node.lineno, "numpy")
             elif top == "ai4u_edu":
                 if rest and rest not in NAMES:
-                    known = " and ".join(NAMES)
-                    text = f"{name} is not there in the page: of ai4u_edu it has {known}"
+                    text = _(
+                        "{name} is not there in the page: of ai4u_edu it has {known}",
+                        name=name,
+                        known=_("{names} and {last}", names=", ".join(NAMES[:-1]), last=NAMES[-1]),
+                    )
                     yield ProgramError(text, node.lineno, "import")
             elif top not in sys.stdlib_module_names:
-                text = (
-                    f"{name} is not there in the page: expected a module of Python's own, "
-                    "such as math"
+                text = _(
+                    "{name} is not there in the page: expected a module of Python's own, such as "
+                    "math",
+                    name=name,
                 )
                 yield ProgramError(text, node.lineno, "import")
 
@@ -69,9 +74,11 @@ def _hooks(tree: ast.Module) -> Iterator[ProgramError]:
         given = {each.arg for each in node.args.args[1:]}
         for part in ast.walk(node):
             if isinstance(part, ast.Name) and part.id in given:
-                text = (
-                    f"{part.id!r} is not there in the page: expected {node.name} to use only "
-                    "what it is told by `percept`, and what it keeps in `self`"
+                text = _(
+                    "{name!r} is not there in the page: expected {method} to use only what it is "
+                    "told by `percept`, and what it keeps in `self`",
+                    name=part.id,
+                    method=node.name,
                 )
                 yield ProgramError(text, part.lineno, "import")
                 break

@@ -12,6 +12,7 @@ from ai4u_edu.program.mistakes import NOTHING_RETURNED, ProgramError, mistake_in
 from ai4u_edu.program.output import PrintedOutput
 from ai4u_edu.program.portable import obstacle_in_tree
 from ai4u_edu.program.reading import Reading, plain_sum, readings_of
+from ai4u_edu.program.texts import gettext as _
 from ai4u_edu.program.tracing import DECISION_LIMIT_S, EndlessError, ReportLine, Trace
 from ai4u_edu.program.words import nearest, shown, suggest
 
@@ -44,11 +45,14 @@ def _checked_action(answer: Any, outputs: Outputs | None, line: int = 0) -> dict
     ai4u_edu.program.mistakes.ProgramError: line 3: the robot can't do 'mov'; did you mean 'move'?
     """
     if answer is None:
-        raise ProgramError(NOTHING_RETURNED, line, "no-return")
+        raise ProgramError(_(NOTHING_RETURNED), line, "no-return")
     if not isinstance(answer, Mapping):
-        raise ProgramError(
-            f"expected an action like {_example(outputs)}, got {shown(answer)}", line, "action"
+        text = _(
+            "expected an action like {example}, got {got}",
+            example=_example(outputs),
+            got=shown(answer),
         )
+        raise ProgramError(text, line, "action")
     return {name: _numbers(name, answer[name], outputs, line) for name in answer}
 
 
@@ -57,56 +61,96 @@ def _numbers(name: Any, value: Any, outputs: Outputs | None, line: int) -> list[
     if outputs is not None:
         if not isinstance(name, str) or name not in outputs:
             # others take no numbers, and the page does not list them
-            known = [each for each, (low, _) in outputs.items() if len(low)]
-            hints = [suggest(str(name), known)]
-            if not nearest(str(name), known):
-                hints = [*hints[len(known) == 1 :], f"write, say, {_example(outputs)}"]
-            text = "; ".join([f"the robot can't do {shown(name)}", *hints])
-            raise ProgramError(text, line, "actuator")
+            known = [each for each, (low, _high) in outputs.items() if len(low)]
+            raise ProgramError(_unknown_actuator(name, known, outputs), line, "actuator")
         count = len(outputs[name][0])
-    wanted = "numbers" if count is None else f"{count} number{'s' * (count != 1)}"
+    wanted = _("numbers")
+    if count is not None:
+        wanted = _("1 number") if count == 1 else _("{count} numbers", count=count)
     if hasattr(value, "tolist") and not isinstance(value, Reading):
         value = value.tolist()
     values = list(value) if isinstance(value, list | tuple | Reading) else [value]
     for each in values:
         if each is None or not isinstance(each, int | float):
-            expected = f"expected {wanted}, got {shown(each)} in {shown(value)}"
-            text = f"action {name!r}: {_advice(each, expected, name, outputs)}"
+            text = _(
+                "action {name!r}: {advice}",
+                name=name,
+                advice=_advice(each, value, wanted, _example(outputs, name)),
+            )
             raise ProgramError(text, line, "not-a-number")
     if count is not None and len(values) != count:
-        text = f"action {name!r}: expected {wanted}, got {len(values)}: {shown(value)}"
-        text += f"; write, say, {_example(outputs, name)}"
+        text = _(
+            "action {name!r}: expected {wanted}, got {count}: {got}; write, say, {example}",
+            name=name,
+            wanted=wanted,
+            count=len(values),
+            got=shown(value),
+            example=_example(outputs, name),
+        )
         raise ProgramError(text, line, "length")
     try:
         numbers = [float(each) for each in values]
     except OverflowError:
         numbers = [math.inf]
     if not all(map(math.isfinite, numbers)):
-        text = f"action {name!r}: expected finite numbers, got {shown(value)}"
-        text += "; inf and nan come from sums and quotients without a value"
+        text = _(
+            "action {name!r}: expected finite numbers, got {got}; inf and nan come from sums and "
+            "quotients without a value",
+            name=name,
+            got=shown(value),
+        )
         raise ProgramError(text, line, "not-finite")
     return [round(each, _DIGITS) for each in numbers]
 
 
-def _advice(value: Any, expected: str, name: str, outputs: Outputs | None) -> str:
-    """Return what is wrong with a value that is no number, and how to mend it."""
-    if isinstance(value, str):
+def _unknown_actuator(name: Any, known: Sequence[str], outputs: Outputs) -> str:
+    """Return what is wrong with a name that no actuator has, and how to mend it."""
+    wrong, example = shown(name), _example(outputs)
+    if nearest(str(name), known):
+        hint = suggest(str(name), known)
+        return _("the robot can't do {name}; {hint}", name=wrong, hint=hint)
+    if len(known) == 1:
+        return _("the robot can't do {name}; write, say, {example}", name=wrong, example=example)
+    return _(
+        "the robot can't do {name}; {hint}; write, say, {example}",
+        name=wrong,
+        hint=suggest(str(name), known),
+        example=example,
+    )
+
+
+def _advice(part: Any, value: Any, wanted: str, example: str) -> str:
+    """Return what is wrong with a part of a value that is no number, and how to mend it."""
+    if isinstance(part, str):
         try:
-            return f"{shown(value)} is text. Write {float(value):g} without quotes."
+            return _(
+                "{text} is text. Write {number:g} without quotes.",
+                text=shown(part),
+                number=float(part),
+            )
         except ValueError:
-            return f"{shown(value)} is text. Expected a number, without quotes."
-    if value is None:
-        return (
-            f"{expected}; None means that a function returned nothing, or that nothing was "
-            "computed yet"
+            return _("{text} is text. Expected a number, without quotes.", text=shown(part))
+    if part is None:
+        return _(
+            "expected {wanted}, got {part} in {value}; None means that a function returned "
+            "nothing, or that nothing was computed yet",
+            wanted=wanted,
+            part=shown(part),
+            value=shown(value),
         )
-    return f"{expected}; write, say, {_example(outputs, name)}"
+    return _(
+        "expected {wanted}, got {part} in {value}; write, say, {example}",
+        wanted=wanted,
+        part=shown(part),
+        value=shown(value),
+        example=example,
+    )
 
 
 def _example(outputs: Outputs | None, name: str = "") -> str:
-    numbered = {each: low for each, (low, _) in (outputs or {}).items() if len(low)}
+    numbered = {each: low for each, (low, _high) in (outputs or {}).items() if len(low)}
     if not numbered:
-        return '{"move": [forward, turn, 0, 0]}'
+        return _('{"move": [forward, turn, 0, 0]}')
     name = name if name in numbered else next(iter(numbered))
     low = numbered[name]
     values = ", ".join(["1", *["0"] * (len(low) - 1)][: len(low)])
@@ -121,7 +165,6 @@ _MODULE_NAME = "program"
 """Name of a program's module, as it is in ``__name__``."""
 _VARARGS = 0x04
 """Flag of a function with ``*arguments``; to import inspect for it takes long in a browser."""
-_EXPECTED = "expected a function: def decide(percept):"
 
 
 class Program:
@@ -260,11 +303,17 @@ class Program:
                 if getattr(one, "__module__", "") == _MODULE_NAME
             ]
             hint = suggest(name, own)
-            raise ProgramError(f"there is no function {name!r}; {hint}", 0, "entry")
+            text = _("there is no function {name!r}; {hint}", name=name, hint=hint)
+            raise ProgramError(text, 0, "entry")
         code = getattr(value, "__code__", None)
         wanted = getattr(code, "co_argcount", len(arguments))
         if wanted != len(arguments) and not getattr(code, "co_flags", 0) & _VARARGS:
-            text = f"{name} is called with {len(arguments)} values, and takes {wanted}"
+            text = _(
+                "{name} is called with {count} values, and takes {wanted}",
+                name=name,
+                count=len(arguments),
+                wanted=wanted,
+            )
             raise ProgramError(text, self._line_of(name), "parameters")
         return self._call(value, *arguments)
 
@@ -311,13 +360,22 @@ class Program:
         name = entry or self._only_entry()
         if name not in self._names or name.startswith("__"):
             known = [each for each in self._names if not each.startswith("_")]
-            raise ProgramError(f"{self.file} has no {name!r}; {suggest(name, known)}", 0, "entry")
+            hint = suggest(name, known)
+            text = _("{file} has no {name!r}; {hint}", file=self.file, name=name, hint=hint)
+            raise ProgramError(text, 0, "entry")
         value, line = self._names[name], self._line_of(name)
         if isinstance(value, type) and not callable(getattr(value, _METHOD, None)):
-            text = f"the class {name} has no {_METHOD}(self, percept): it must return an action"
+            text = _(
+                "the class {name} has no {method}(self, percept): it must return an action",
+                name=name,
+                method=_METHOD,
+            )
             raise ProgramError(text, line, "entry")
         if not callable(value) and not callable(getattr(value, _METHOD, None)):
-            raise ProgramError(f"{name!r} is no function; {_EXPECTED}", line, "entry")
+            text = _(
+                "{name!r} is no function; expected a function: def decide(percept):", name=name
+            )
+            raise ProgramError(text, line, "entry")
         return name
 
     def _only_entry(self) -> str:
@@ -336,9 +394,16 @@ class Program:
             return classes[0]
         near = nearest(_ENTRY, own)
         if near:
-            text = f"the function must be called {_ENTRY}, exactly so; you wrote {near}"
+            text = _(
+                "the function must be called {name}, exactly so; you wrote {near}",
+                name=_ENTRY,
+                near=near,
+            )
             raise ProgramError(text, self._line_of(near), "entry")
-        raise ProgramError(f"there is no function {_ENTRY!r}; {_EXPECTED}", 0, "entry")
+        text = _(
+            "there is no function {name!r}; expected a function: def decide(percept):", name=_ENTRY
+        )
+        raise ProgramError(text, 0, "entry")
 
     def _line_of(self, name: str) -> int:
         """Return the line in which a name of the module is defined; 0 if it is not found."""
@@ -372,8 +437,15 @@ class Program:
     def _endless(self, line: int) -> ProgramError:
         loop = loop_around(self._tree, line)
         why = why_endless(loop, is_in_decision=self._is_deciding)
-        limit = f"{self.trace.limit_s:g} second{'s' * (self.trace.limit_s != 1)}"
-        text = f"Your code has been running for {limit} without an answer. {why}"
+        seconds = self.trace.limit_s
+        if seconds == 1:
+            text = _("Your code has been running for 1 second without an answer. {why}", why=why)
+        else:
+            text = _(
+                "Your code has been running for {seconds:g} seconds without an answer. {why}",
+                seconds=seconds,
+                why=why,
+            )
         return ProgramError(text, loop.lineno if loop else line, "endless")
 
 
@@ -391,7 +463,9 @@ class _CatchesLess(ast.NodeTransformer):
 
 def _parsed(source: str, file: str) -> ast.Module:
     if len(source) > MAX_SOURCE_CHARS:
-        raise ProgramError(f"expected a program of at most {MAX_SOURCE_CHARS:,} characters")
+        raise ProgramError(
+            _("expected a program of at most {count:,} characters", count=MAX_SOURCE_CHARS)
+        )
     try:
         return ast.parse(source, file)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
@@ -406,8 +480,10 @@ def _import(name: str, *arguments: Any, **options: Any) -> Any:
 
 def _no_input(*_prompt: object) -> None:
     raise ProgramError(
-        "input() doesn't work here: the program only knows what the robot senses. Use what percept "
-        "has, or write the value into the program."
+        _(
+            "input() doesn't work here: the program only knows what the robot senses. Use what "
+            "percept has, or write the value into the program."
+        )
     )
 
 
@@ -420,7 +496,8 @@ def _check_parameters(function: Any) -> None:
     optional = len(function.__defaults__ or ())
     if not code.co_argcount - optional <= 1 + is_method <= code.co_argcount:
         name = code.co_name
-        wanted = "self and the percept" if is_method else "one value, the percept"
-        names = "self, percept" if is_method else "percept"
-        text = f"{name} must take {wanted}: def {name}({names}):"
+        if is_method:
+            text = _("{name} must take self and the percept: def {name}(self, percept):", name=name)
+        else:
+            text = _("{name} must take one value, the percept: def {name}(percept):", name=name)
         raise ProgramError(text, code.co_firstlineno, "parameters")

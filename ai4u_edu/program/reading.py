@@ -5,6 +5,7 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NoReturn
 
+from ai4u_edu.program.texts import gettext as _
 from ai4u_edu.program.words import suggest
 
 MAX_SHOWN_NUMBERS = 100
@@ -126,8 +127,12 @@ class Reading(Sequence[Any]):
             found = self._parts[index]
         except IndexError:
             raise IndexError(
-                f"the reading has {len(self)} numbers, from [0] to [{len(self) - 1}]; "
-                f"there is no [{index}]"
+                _(
+                    "the reading has {count} numbers, from [0] to [{last}]; there is no [{index}]",
+                    count=len(self),
+                    last=len(self) - 1,
+                    index=str(index),
+                )
             ) from None
         return Reading(found) if isinstance(index, slice) else found
 
@@ -138,8 +143,12 @@ class Reading(Sequence[Any]):
         if len(self) == 1:
             return bool(self._parts[0])
         raise ValueError(
-            f"a reading of {len(self)} numbers is neither true nor false: ask for one of them, as "
-            "in reading[0] > 0.5, or for reading.any() or reading.max()"
+            _(
+                "a reading of {count} numbers is neither true nor false: ask for one of them, as "
+                "in "
+                "reading[0] > 0.5, or for reading.any() or reading.max()",
+                count=len(self),
+            )
         )
 
     def __repr__(self) -> str:
@@ -169,7 +178,11 @@ class Reading(Sequence[Any]):
             return NotImplemented
         if len(other) != len(self):
             raise ValueError(
-                f"expected as many numbers on both sides, got {len(self)} and {len(other)}"
+                _(
+                    "expected as many numbers on both sides, got {count} and {other}",
+                    count=len(self),
+                    other=len(other),
+                )
             )
         return Reading([function(mine, theirs) for mine, theirs in zip(self, other, strict=True)])
 
@@ -221,7 +234,7 @@ class Reading(Sequence[Any]):
         return self._map(abs)
 
     def __setitem__(self, index: object, value: object) -> NoReturn:
-        raise TypeError("a reading can't be changed; list(reading) makes a list that can")
+        raise TypeError(_("a reading can't be changed; list(reading) makes a list that can"))
 
 
 class MissingReadingError(KeyError):
@@ -255,7 +268,9 @@ class Readings(Mapping[str, Any]):
         if key not in self._converted:
             if key not in self._percept:
                 hint = suggest(str(key), self._percept)
-                raise MissingReadingError(f"there is no sensor called {key!r}; {hint}")
+                raise MissingReadingError(
+                    _("there is no sensor called {key}; {hint}", key=repr(key), hint=hint)
+                )
             self._converted[key] = _plain(self._percept[key])
         return self._converted[key]
 

@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from types import ModuleType
 from typing import Any
 
+from ai4u_edu.program.texts import gettext as _
+
 Percept = Mapping[str, Any]
 """Readings by perception key, for annotations."""
 
@@ -28,7 +30,9 @@ class Controller:
             for name in getattr(cls, "__annotations__", ())
         ]
         for name in parameters.keys() - set(fields):
-            raise TypeError(f"{type(self).__name__} has no parameter {name!r}")
+            raise TypeError(
+                _("{type} has no parameter {name!r}", type=type(self).__name__, name=name)
+            )
         for name in fields:
             if name in parameters or hasattr(self, name):
                 # a list among the defaults is nobody else's
@@ -50,7 +54,10 @@ class Controller:
     def get_action(self, percept: Percept) -> Any:
         """Return an action for each actuator, by its name."""
         raise NotImplementedError(
-            f"{type(self).__name__} has no get_action(self, percept): it must return an action"
+            _(
+                "{type} has no get_action(self, percept): it must return an action",
+                type=type(self).__name__,
+            )
         )
 
 

@@ -5,6 +5,8 @@ from difflib import get_close_matches
 from types import FunctionType, ModuleType
 from typing import Any
 
+from ai4u_edu.program.texts import gettext as _
+
 MAX_SHOWN_CHARS = 60
 """Maximum length of a value in a message."""
 MAX_NAMES_COMPARED = 500
@@ -25,13 +27,15 @@ def suggest(name: str, known: Iterable[str]) -> str:
     """
     names = sorted(known)
     if not names:
-        return "there are none"
+        return _("there are none")
     near = nearest(name, names)
     if near:
-        return f"did you mean {near!r}?"
+        return _("did you mean {name!r}?", name=near)
     first = ", ".join(repr(each[:MAX_NAME_CHARS]) for each in names[:MAX_NAMES_SHOWN])
     more = len(names) - MAX_NAMES_SHOWN
-    return f"known are {first}" + (f" and {more} more" if more > 0 else "")
+    if more > 0:
+        return _("known are {names} and {more} more", names=first, more=more)
+    return _("known are {names}", names=first)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -70,7 +74,7 @@ def _begun(value: Any, chars: int, depth: int) -> str:
     if kind in (str, bytes):
         return repr(value[: max(chars, 0)])
     if kind is int:
-        return repr(value) if value.bit_length() < 1000 else "a very large number"
+        return repr(value) if value.bit_length() < 1000 else _("a very large number")
     if value is None or kind in (bool, float, complex):
         return repr(value)
     if issubclass(kind, ModuleType | FunctionType | type):

@@ -3,7 +3,7 @@
 /** @import { Reading, Value } from "../types/remote.js" */
 
 import { limits } from "../shared/limits.js";
-import { t } from "../shared/text.js";
+import { pageCatalogue, t } from "../shared/text.js";
 
 /** Time until the spare worker is started, which would slow down a program's first decisions. */
 const SPARE_DELAY_MS = 3000;
@@ -31,7 +31,7 @@ const NUMBER_WORDS = new Map([[Infinity, "inf"], [-Infinity, "-inf"], [NaN, "nan
  * @property {string} [value] what a called function returned, as JSON
  */
 /** @typedef {{line: number, variables: Record<string, string>}} TracedMoment a line that ran, and the variables before it */
-/** @typedef {{wasm: WebAssembly.Module, library: Uint8Array<ArrayBuffer>, program: Uint8Array<ArrayBuffer>}} Parts */
+/** @typedef {{wasm: WebAssembly.Module, library: Uint8Array<ArrayBuffer>, program: Uint8Array<ArrayBuffer>, messages: Record<string, unknown>}} Parts */
 /** @typedef {{outputs: Record<string, [low: number[], high: number[]]>, readings: Pick<Reading, "key" | "dtype">[]}} Facts of an agent */
 
 /** @type {Facts} */
@@ -343,7 +343,7 @@ async function fetchParts() {
       fetched(LIBRARY).then((answer) => answer.arrayBuffer()),
       fetched(PROGRAM).then((answer) => answer.arrayBuffer()),
     ]);
-    return { wasm, library: new Uint8Array(library), program: new Uint8Array(program) };
+    return { wasm, library: new Uint8Array(library), program: new Uint8Array(program), messages: pageCatalogue().messages };
   } catch {
     throw new Error(UNAVAILABLE);
   }

@@ -66,7 +66,7 @@ function problem(kind, text) {
  * Load Python with the files that the page has fetched; return the functions of host.py by name.
  * @param {Parts} parts
  */
-async function start({ wasm, library, program }) {
+async function start({ wasm, library, program, messages }) {
   checkPolicy();
   // Pyodide fetches two files by itself, of which one is compiled already
   self.fetch = async (url) => new Response(String(url).endsWith(".zip") ? library : null);
@@ -87,6 +87,7 @@ async function start({ wasm, library, program }) {
   python.runPython(`import sys; sys.path.insert(0, "${PROGRAM_PATH}")`);
   const host = python.pyimport("ai4u_edu.program.host");
   const { load, begin, decide, call } = host;
+  host.translate(JSON.stringify(messages));
   host.watch((/** @type {number} */ line) => send({ line }));
   for (const name of ["js", "pyodide_js"]) python.unregisterJsModule(name);
   python.runPython(`import sys; [sys.modules.pop(name, None) for name in ("js", "pyodide_js")]`);
