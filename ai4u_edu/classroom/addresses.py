@@ -2,6 +2,8 @@
 
 from urllib.parse import quote, urlsplit
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join as joined
 from ai4u_edu.page.server.address import WILDCARD_HOSTS
 from ai4u_edu.page.server.host_origin import is_loopback
 from ai4u_edu.page.server.startup_banner import own_address
@@ -37,12 +39,14 @@ def class_banner(join: str, code: str, url: str, token: str) -> str:
     The second address is yours alone. Ctrl-C ends the class; started again with the same
     --folder, it goes on where it was.
     """
-    lines = [
-        f"Students open  {join}  and type the code  {code}",
-        f"You open       {teacher_address(url, token)}",
-        "The second address is yours alone. Ctrl-C ends the class; started again with the same",
-        "--folder, it goes on where it was.",
+    lines: list[str] = [
+        _("Students open  {join}  and type the code  {code}", join=join, code=code),
+        _("You open       {address}", address=teacher_address(url, token)),
+        _(
+            "The second address is yours alone. Ctrl-C ends the class; started again with the "
+            "same\n--folder, it goes on where it was."
+        ),
     ]
     if is_loopback(urlsplit(join).hostname or ""):
-        lines.append("Only this machine can reach it. For others: --host 0.0.0.0")
-    return "\n".join(lines)
+        lines.append(_("Only this machine can reach it. For others: --host 0.0.0.0"))
+    return joined(lines, "\n")

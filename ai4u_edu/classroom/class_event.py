@@ -9,12 +9,12 @@ from typing import Any
 
 from msgspec.structs import asdict
 
-from ai4u_edu.classroom.course_index import course_index, course_lessons, words_for
+from ai4u_edu.classroom.course_index import course_index, course_lessons, lesson_title, words_for
 from ai4u_edu.classroom.help_score import MISTAKE_HELP
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.tournament.event import networks_event, tournament_event
-from ai4u_edu.locale import catalogue, join
+from ai4u_edu.locale import catalogue, join, library_text
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.episode_watch import PERSON
 from ai4u_edu.page.messages import to_json
@@ -86,7 +86,9 @@ class ClassEvents:
             ),
             "scenes": _library(),
             "max_scene_chars": MAX_SENT_SCENE_CHARS,
-            "exercises": [each._asdict() for each in course_index()],
+            "exercises": [
+                {**each._asdict(), "title": lesson_title(each.lesson)} for each in course_index()
+            ],
             "lessons": _lessons(),
             "seats": self._seats(),
             "rooms": self._rooms(has_mistakes=not is_projected),
@@ -242,7 +244,7 @@ def misconceptions(mistakes: Mapping[tuple[int, str, str], int]) -> list[Event]:
 
 def _lessons() -> list[Event]:
     return [
-        {"number": each.number, "title": each.title, "scene": each.scene}
+        {"number": each.number, "title": lesson_title(each.number), "scene": each.scene}
         for each in course_lessons()
     ]
 
@@ -261,7 +263,7 @@ def _library() -> list[Event]:
         found.append(
             {
                 "name": name,
-                "title": title[1] if title else name,
+                "title": library_text(title[1]) if title else name,
                 "stars": stars[name],
                 "is_duel": len(set(_AGENT.findall(text))) > 1,
                 "picture": picture_address(name),

@@ -5,9 +5,11 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.lessons.course import Lesson, course_folder, lessons
+from ai4u_edu.lessons.course import Lesson, course_folder, lesson, lessons
 from ai4u_edu.lessons.diagnoses import COMMON, COMMON_ID, UNKNOWN
 from ai4u_edu.lessons.exercise import find
+from ai4u_edu.lessons.translation import translated_title
+from ai4u_edu.locale import catalogue
 
 _SHOWN_SCENE = re.compile(r'^(?:\w+ = )?show\("(\w+)"', re.MULTILINE)
 GUIDE = "README.md"
@@ -50,8 +52,19 @@ def course_lessons() -> list[LessonWorld]:
     ]
 
 
-def _first_scene(lesson: Lesson) -> str:
-    found = (_SHOWN_SCENE.search(cell.source) for cell in lesson.cells)
+def lesson_title(number: str) -> str:
+    """Return a lesson's title without its number, in the reader's language."""
+    return _title_in(catalogue().language, number)
+
+
+@lru_cache(maxsize=100)
+def _title_in(_language: str, number: str) -> str:
+    # the file is read for it
+    return translated_title(lesson(number)).removeprefix(number).strip()
+
+
+def _first_scene(one: Lesson) -> str:
+    found = (_SHOWN_SCENE.search(cell.source) for cell in one.cells)
     return next((each[1] for each in found if each), "")
 
 

@@ -6,10 +6,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.base.errors import AI4UError, shorten
+from ai4u_edu.base.errors import AI4UError, shorten, text_of
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.games.jobs import Job
 from ai4u_edu.games.jobs.isolated import IsolatedJobs
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed, unpacked
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.scenes import Scene
@@ -43,9 +45,9 @@ def find_fault(claim: Claim) -> str:
         episode = decode(Episode, claim.episode, "the episode")
         scene = Scene.loads(claim.scene) if "\n" in claim.scene else Scene.load(claim.scene)
         if episode.seed != claim.seed:
-            return f"expected seed {claim.seed}, got {episode.seed}"
+            return _("expected seed {seed}, got {found}", seed=claim.seed, found=episode.seed)
         if not Replay(episode).fits(scene.build()):
-            return "it was driven in another scene"
+            return _("it was driven in another scene")
         # the world and agents are those of the scene; what counts as success is not among them
         goal = {"success": scene.description.success, "goal": scene.description.goal}
         replay = Replay(replace(episode, scene=episode.scene.model_copy(update=goal)))
@@ -53,11 +55,19 @@ def find_fault(claim: Claim) -> str:
             return replay.verdict.why
         found = _outcome(replay)
     except AI4UError as error:
-        return shorten(str(error), MAX_REASON_CHARS)
+        return shorten(text_of(error), MAX_REASON_CHARS)
     if found != claim.outcome:
-        return f"expected the outcome {claim.outcome!r}, got {found!r} in the replay"
+        return _(
+            "expected the outcome {outcome!r}, got {found!r} in the replay",
+            outcome=claim.outcome,
+            found=found,
+        )
     if abs(episode.seconds - claim.seconds) > TIME_TOLERANCE_S:
-        return f"expected {claim.seconds:.2f} s, got {episode.seconds:.2f} s in the replay"
+        return _(
+            "expected {seconds:.2f} s, got {found:.2f} s in the replay",
+            seconds=claim.seconds,
+            found=episode.seconds,
+        )
     return ""
 
 
@@ -86,7 +96,7 @@ def fault_of(episode: str, **fields: Any) -> str:
         episode: the bytes of its file in base64.
         **fields: the other fields of the claim.
     """
-    return find_fault(Claim(base64.b64decode(episode), **fields))
+    return packed(find_fault(Claim(base64.b64decode(episode), **fields)))
 
 
 class EpisodeCheck:
@@ -121,7 +131,7 @@ class EpisodeCheck:
         fields = vars(claim) | {"episode": base64.b64encode(claim.episode).decode()}
         answer = await self._jobs.run(Job.of(fault_of, **fields))
         if not answer.error:
-            return str(answer.result)
+            return unpacked(str(answer.result))
         reason = answer.error.replace("it took more than", "it could not be replayed in")
         return shorten(reason, MAX_REASON_CHARS)
 

@@ -50,15 +50,18 @@ class FolderQuota:
     def warning(self) -> str:
         """Sentence for the teacher; empty while there is enough room."""
         if self.is_full:
-            return (
-                f"The class's folder has its {self.max_gb:g} GB, and nothing more of students' "
-                "work is kept. Export the class and forget it, or start it with a larger "
-                "--max-folder."
+            return _(
+                "The class's folder has its {most:g} GB, and nothing more of students' work "
+                "is kept. Export the class and forget it, or start it with a larger "
+                "--max-folder.",
+                most=self.max_gb,
             )
         if self._used_gb >= WARNING_SHARE * self.max_gb:
-            return (
-                f"The class's folder has {self._used_gb:.2g} of its {self.max_gb:g} GB. Export the "
-                "class and forget it soon, or start it with a larger --max-folder."
+            return _(
+                "The class's folder has {used_gb:.2g} of its {most:g} GB. Export the class "
+                "and forget it soon, or start it with a larger --max-folder.",
+                used_gb=self._used_gb,
+                most=self.max_gb,
             )
         return ""
 

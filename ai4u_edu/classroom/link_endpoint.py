@@ -7,12 +7,13 @@ from contextlib import suppress
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.classroom.course_index import known_exercises
 from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.live_class import LiveClass
 from ai4u_edu.classroom.live_rooms import LiveRoom
 from ai4u_edu.classroom.result_writer import Received
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.attempts import AttemptResult, Attempts, client_address
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit, TooManyOpenError
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
@@ -102,9 +103,9 @@ class LinkEndpoint:
                     await self._serve(socket, room)
             except TooManyOpenError as error:
                 if socket.application_state is WebSocketState.CONNECTING:
-                    await refuse_socket(scope, receive, send, TRY_LATER, str(error))
+                    await refuse_socket(scope, receive, send, TRY_LATER, text_of(error))
                 elif socket.application_state is WebSocketState.CONNECTED:
-                    await socket.close(TRY_LATER, close_reason(str(error)))
+                    await socket.close(TRY_LATER, close_reason(text_of(error)))
 
     async def _serve(self, socket: WebSocket, room: LiveRoom) -> None:
         """Serve the link of a room."""
@@ -131,18 +132,29 @@ class LinkEndpoint:
             hello = decode_from_room(frame)
         except TimeoutError:
             await _refuse(
-                socket, LinkProblem("message", f"expected hello within {HELLO_TIMEOUT_S:g} s")
+                socket,
+                LinkProblem(
+                    "message",
+                    _(
+                        "expected hello within {limit:g} s",
+                        limit=HELLO_TIMEOUT_S,
+                    ),
+                ),
             )
             return None
         except WireError as error:
-            await _refuse(socket, LinkProblem("message", str(error)))
+            await _refuse(socket, LinkProblem("message", text_of(error)))
             return None
         if not isinstance(hello, LinkHello):
-            await _refuse(socket, LinkProblem("message", "expected hello as the first message"))
+            await _refuse(socket, LinkProblem("message", _("expected hello as the first message")))
             return None
         if hello.version != VERSION:
-            text = f"expected version {VERSION} of the class's protocol, got {hello.version}; "
-            text += "install the version of ai4u-edu that your teacher has"
+            text = _(
+                "expected version {version} of the class's protocol, got {got}; install the "
+                "version of ai4u-edu that your teacher has",
+                version=VERSION,
+                got=hello.version,
+            )
             await _refuse(socket, LinkProblem("version", text))
             return None
         found: list[LiveRoom] = []
@@ -150,7 +162,7 @@ class LinkEndpoint:
         try:
             elsewhere = await self._find_room(hello.secret, address) if self._find_room else None
         except AI4UError as error:
-            await socket.close(TRY_LATER, close_reason(str(error)))
+            await socket.close(TRY_LATER, close_reason(text_of(error)))
             return None
 
         def is_right() -> bool:
@@ -160,10 +172,12 @@ class LinkEndpoint:
 
         verdict = await self._attempts.check(address, is_right)
         if verdict is AttemptResult.TOO_MANY:
-            await socket.close(TRY_LATER, "too many wrong secrets from this address")
+            await socket.close(
+                TRY_LATER, close_reason(_("too many wrong secrets from this address"))
+            )
             return None
         if not found:
-            text = "This place in the class is not yours any more. Join again."
+            text = _("This place in the class is not yours any more. Join again.")
             await _refuse(socket, LinkProblem("secret", text))
             return None
         return found[0]
@@ -181,10 +195,12 @@ class LinkEndpoint:
             except WireError as error:
                 mistakes += 1
                 if mistakes >= MAX_MISTAKES:
-                    link.end(f"{MAX_MISTAKES} malformed messages in a row", code="message")
+                    link.end(
+                        _("{most} malformed messages in a row", most=MAX_MISTAKES), code="message"
+                    )
                     mistakes = 0
                 else:
-                    link.add(LinkProblem("message", str(error)))
+                    link.add(LinkProblem("message", text_of(error)))
                 continue
             mistakes = 0
             if room.link is link:  # what a link sends after its end does not count
@@ -222,9 +238,9 @@ class LinkEndpoint:
         """Keep a network, and acknowledge it when it is on disk."""
         problem = ""
         if not room.seat:
-            problem = "network: expected a link of one seat; use the page"
+            problem = _("network: expected a link of one seat; use the page")
         elif self._live.store.quota.is_full:
-            problem = "The class's folder is full. Tell your teacher."
+            problem = _("The class's folder is full. Tell your teacher.")
         if problem:
             link.add(LinkProblem("message", problem))
             link.add(Ack(network.key))  # sent again it would be refused again
@@ -233,7 +249,7 @@ class LinkEndpoint:
         try:
             await asyncio.to_thread(self._live.tournament.networks.add, room.seat, *given)
         except NetworkError as error:
-            link.add(LinkProblem("message", str(error)))  # as above
+            link.add(LinkProblem("message", text_of(error)))  # as above
         except StoreError:
             link.close_later()
             return
@@ -244,7 +260,10 @@ class LinkEndpoint:
     ) -> None:
         """Take what a room asks for, and acknowledge it when it is on disk."""
         if room.seat:
-            text = f"{message.__struct_config__.tag}: expected a room on the class's machine"
+            text = _(
+                "{tag}: expected a room on the class's machine",
+                tag=str(message.__struct_config__.tag),
+            )
             link.add(LinkProblem("message", text))
             link.add(Ack(message.key))  # sent again it would be refused again
             return
@@ -268,10 +287,12 @@ class LinkEndpoint:
 
     def _take_result(self, room: LiveRoom, link: "LinkSender", result: Result) -> None:
         if isinstance(result, ExerciseResult) and result.exercise not in known_exercises():
-            text = f"exercise: no exercise is called {result.exercise[:40]!r}; "
-            link.add(
-                LinkProblem("message", text + "install the version of ai4u-edu that the class has")
+            text = _(
+                "exercise: no exercise is called {name!r}; install the version of ai4u-edu that "
+                "the class has",
+                name=result.exercise[:40],
             )
+            link.add(LinkProblem("message", text))
             link.add(Ack(result.key))  # sent again it would be refused again
             return
 
@@ -312,7 +333,7 @@ class LinkSender:
         """Send an answer to a message."""
         self._replies.append(message)
         if len(self._replies) > MAX_WAITING_ACKS:  # it does not read
-            self._closing = (NOT_ALLOWED, "expected acknowledgements to be read")
+            self._closing = (NOT_ALLOWED, _("expected acknowledgements to be read"))
         self._wake.set()
 
     def end(self, sentence: str, code: str = "over") -> None:
@@ -324,7 +345,7 @@ class LinkSender:
 
     def close_later(self) -> None:
         """Close the link, which is opened again: the class could not store what it sent."""
-        self._closing = (TRY_LATER, "the class can't save anything now")
+        self._closing = (TRY_LATER, _("the class can't save anything now"))
         self._wake.set()
 
     def stop(self) -> None:
@@ -374,9 +395,11 @@ def _decoded(frame: bytes) -> FromRoom:
     """
     message = decode_from_room(frame)
     if isinstance(message, LinkHello):
-        raise WireError("expected hello as the first message only")
+        raise WireError(_("expected hello as the first message only"))
     if len(frame) > MAX_STATE_BYTES and isinstance(message, Drawing | Poses | State):
-        raise WireError(f"expected at most {MAX_STATE_BYTES} bytes, got {len(frame)}")
+        raise WireError(
+            _("expected at most {most} bytes, got {n}", most=MAX_STATE_BYTES, n=len(frame))
+        )
     return message
 
 

@@ -220,7 +220,7 @@ class LiveClass:
         """Take a room's new link, in the place of one before, and send it everything."""
         before, room.link, room.people = room.link, link, None
         if before is not None:
-            before.end("Another program has taken this place in the class; this one is out.")
+            before.end(_("Another program has taken this place in the class; this one is out."))
         seats = self.seats_of(room)
         for each in seats:
             self.progress.begin(each.number)

@@ -29,6 +29,7 @@ from ai4u_edu.classroom.room_process import (
     run_room,
 )
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.token_auth import is_same_secret
 
@@ -130,7 +131,7 @@ class LocalRooms:
             if slot.running is not None:
                 self._note_end(room, slot, slot.running)
             if self._clock() < slot.retry_at:
-                raise RoomError(slot.reason or "Your world ended. It starts again in a moment.")
+                raise RoomError(slot.reason or _("Your world ended. It starts again in a moment."))
             slot.running = await asyncio.to_thread(self._start, room, scene)
             slot.reason = ""
             return slot.running.address
@@ -234,7 +235,9 @@ class LocalRooms:
         try:
             process.start()
         except (OSError, EOFError) as error:
-            raise RoomError(f"Your world can't be started: {error}. Tell your teacher.") from None
+            raise RoomError(
+                _("Your world can't be started: {problem}. Tell your teacher.", problem=str(error))
+            ) from None
         finally:
             theirs.close()
         answer: object = None
@@ -249,8 +252,8 @@ class LocalRooms:
             return _Running(process, ours, address, self._clock(), watch)
         ours.close()
         process.kill()
-        reason = answer.reason if isinstance(answer, RoomFailed) else "its process did not start"
-        raise RoomError(f"Your world can't be opened: {shorten(reason, 300)}")
+        reason = answer.reason if isinstance(answer, RoomFailed) else _("its process did not start")
+        raise RoomError(_("Your world can't be opened: {reason}", reason=shorten(reason, 300)))
 
     def _note_end(self, room: str, slot: _Slot, ended: _Running) -> None:
         """Note that a process ended by itself; the more often early, the longer the next waits."""

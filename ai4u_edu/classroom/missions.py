@@ -12,7 +12,7 @@ from typing import Any
 
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import ngettext
+from ai4u_edu.locale import library_text, ngettext, translate
 from ai4u_edu.missions.mission import Mission, MissionFolder
 
 MAX_MISSIONS = 300
@@ -56,8 +56,9 @@ class MissionPlace:
 
     @property
     def diagnosis(self) -> str:
-        """The hint as plain text."""
-        return self.hint.replace("*", "")
+        """The hint as plain text, in the reader's language."""
+        # the marks are those of the translation, too
+        return translate(library_text(self.hint)).replace("*", "")
 
 
 class ClassMissions:
@@ -182,7 +183,7 @@ class ClassMissions:
         return [
             {
                 "name": name,
-                "title": mission.title,
+                "title": library_text(mission.title),
                 "island": mission.island,
                 "steps": len(mission.steps),
                 "stars": _stars_of(mission),
@@ -196,7 +197,7 @@ class ClassMissions:
         return {
             str(seat): {
                 "mission": place.mission,
-                "title": known[place.mission].title,
+                "title": library_text(known[place.mission].title),
                 "step": place.step,
                 "steps": len(known[place.mission].steps),
                 "is_done": place.is_done,
@@ -217,7 +218,7 @@ class ClassMissions:
         present = Counter(self._places[seat].mission for seat in here)
         stuck = Counter(self._places[seat].mission for seat in here if self.stuck(seat)[0])
         return [
-            {"title": mission.title, "count": present[name], "stuck": stuck[name]}
+            {"title": library_text(mission.title), "count": present[name], "stuck": stuck[name]}
             for name, mission in self.known.items()
             if present[name]
         ]
@@ -243,7 +244,7 @@ class ClassMissions:
             score = max(score, min(70, 35 + 5 * (minutes - LONG_MINUTES)))
         if not score:
             return 0, ""
-        step, title = place.step + 1, mission.title
+        step, title = place.step + 1, library_text(mission.title)
         where: str = _("step {step} of “{mission}”", step=step, mission=title)
         if minutes >= 2:
             where = ngettext(

@@ -8,6 +8,8 @@ from functools import cache
 from importlib.resources import files
 from itertools import product
 
+from ai4u_edu.locale import catalogue
+
 CODE_LETTERS = "BCDFGHJKMNPRSTVWXZ"
 """Letters of a code: without those that look like others, and without vowels, which make words."""
 CODE_LENGTH = 5
@@ -35,12 +37,18 @@ LANGUAGES = tuple(
 def words_of(language: str) -> tuple[list[str], list[str]]:
     """Return the first and the second words of names; each first one goes with each second one.
 
-    >>> [len(words) > 30 for words in words_of("pt")]
+    >>> [len(words) > 30 for words in words_of("pt_BR")]
     [True, True]
     """
     text = (_FOLDER / f"{language}.txt").read_text(encoding="utf-8")
     first, second = (line.split() for line in text.splitlines())
     return first, second
+
+
+def names_language() -> str:
+    """Return the language of this program, if there are names in it; else English."""
+    language = catalogue().language
+    return language if language in LANGUAGES else DEFAULT_LANGUAGE
 
 
 def new_code() -> str:

@@ -1,5 +1,6 @@
 """Limits of a class's open sockets and requests. A school is one address, so a seat has its own."""
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 
 MAX_STRANGER_SOCKETS = 50
@@ -20,7 +21,7 @@ SEATS_SHARE = 0.7
 
 def sign_ins() -> ConcurrencyLimit:
     """Return the limit of requests whose code or token may have to wait for a turn, by address."""
-    return ConcurrencyLimit(MAX_JOINS, STRANGERS_SHARE, what="requests")
+    return ConcurrencyLimit(MAX_JOINS, STRANGERS_SHARE, what=_("requests"))
 
 
 def stranger_sockets() -> ConcurrencyLimit:
@@ -35,4 +36,4 @@ def seat_sockets() -> ConcurrencyLimit:
 
 def seat_requests() -> ConcurrencyLimit:
     """Return the limit of requests of seats to their rooms."""
-    return ConcurrencyLimit(MAX_SEAT_REQUESTS, SEATS_SHARE, what="requests")
+    return ConcurrencyLimit(MAX_SEAT_REQUESTS, SEATS_SHARE, what=_("requests"))

@@ -21,6 +21,7 @@ from ai4u_edu.classroom.room_queue import QueueRow, RoomQueue
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.learn.training.run import Run
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed, unpacked
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.teach.learning import DIED, STOPPED
 from ai4u_edu.teach.practice import FOLDER as PRACTICES
@@ -35,8 +36,10 @@ POLL_S = 0.5
 """Interval at which the processes are looked at."""
 CPU_FILE = "processor_s"
 """File in a practice's folder with the processor time (s) that it has used."""
-TOO_LONG = f"it has used its {MAX_CPU_S / 60:g} minutes of processor time"
-TOO_MANY = f"expected at most {MAX_OPEN} practices of a world at once; wait until one is done"
+TOO_LONG = _("it has used its {most:g} minutes of processor time", most=MAX_CPU_S / 60)
+TOO_MANY = _(
+    "expected at most {most} practices of a world at once; wait until one is done", most=MAX_OPEN
+)
 
 
 @dataclass(eq=False)
@@ -93,9 +96,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
     def read(self) -> None:
         """Read all from the store."""
         rows = self._store.query("select key, room, state from practices order by rowid")
-        self._rows = {
-            key: _Row(room, msgspec.json.decode(state, type=Practised)) for key, room, state in rows
-        }
+        self._rows = {key: _Row(room, _read(state)) for key, room, state in rows}
 
     def sentence(self, room: str) -> str:
         """Return how the practice of a room goes, or went; empty if it has none."""
@@ -246,7 +247,11 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
 
     def _write(self, row: _Row) -> None:
         with self._store.transaction() as database:
-            values = [row.state.key, row.room, msgspec.json.encode(row.state).decode()]
+            values = [
+                row.state.key,
+                row.room,
+                msgspec.json.encode(row.state, enc_hook=packed).decode(),
+            ]
             database.execute(
                 "insert into practices values (?, ?, ?) on conflict (key) do update set "
                 "state = excluded.state",
@@ -256,3 +261,8 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
     def _delete_key(self, key: str) -> None:
         with self._store.transaction() as database:
             database.execute("delete from practices where key = ?", [key])
+
+
+def _read(text: str) -> Practised:
+    state = msgspec.json.decode(text, type=Practised)
+    return replace(state, problem=unpacked(state.problem))

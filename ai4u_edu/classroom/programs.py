@@ -163,44 +163,53 @@ MistakeKind = Literal[
     "error",
 ]
 """Kinds of :class:`~ai4u_edu.program.mistakes.ProgramError`."""
-_OTHER = ("Python stopped", "Read the last words of the sentence aloud: which word is new?")
+_OTHER = (_("Python stopped"), _("Read the last words of the sentence aloud: which word is new?"))
 _WORDS: dict[str, tuple[str, str]] = {
     "syntax": (
-        "Python can't read a line",
-        "Read the line aloud, with every sign. Which one is missing, or too many?",
+        _("Python can't read a line"),
+        _("Read the line aloud, with every sign. Which one is missing, or too many?"),
     ),
     "indentation": (
-        "Spaces at the beginning of a line",
-        "What belongs together begins at the same place: four spaces after each colon.",
+        _("Spaces at the beginning of a line"),
+        _("What belongs together begins at the same place: four spaces after each colon."),
     ),
-    "entry": ("decide(percept) is missing", "The robot calls `decide` by its name."),
+    "entry": (_("decide(percept) is missing"), _("The robot calls `decide` by its name.")),
     "parameters": (
-        "The brackets of a function do not fit its call",
-        "Count what stands in the brackets after `def`, and in the call.",
+        _("The brackets of a function do not fit its call"),
+        _("Count what stands in the brackets after `def`, and in the call."),
     ),
     "no-return": (
-        "Nothing is returned",
-        "Follow the program with a finger: is there a way past every `return`?",
+        _("Nothing is returned"),
+        _("Follow the program with a finger: is there a way past every `return`?"),
     ),
     "action": (
-        "The action has another form",
-        "Look at “It can do”: a name, and a list of numbers.",
+        _("The action has another form"),
+        _("Look at “It can do”: a name, and a list of numbers."),
     ),
-    "actuator": ("There is no such actuator", "Compare the name with the list “It can do”."),
-    "length": ("Too many or too few numbers", "Count the numbers in the list “It can do”."),
-    "not-a-number": ("A number was expected", "Print it: what is it really?"),
-    "not-finite": ("A number without end", "Where does the program divide? By what?"),
-    "wrong-key": ("There is no such reading", "Compare the name with the list “It senses”."),
+    "actuator": (_("There is no such actuator"), _("Compare the name with the list “It can do”.")),
+    "length": (_("Too many or too few numbers"), _("Count the numbers in the list “It can do”.")),
+    "not-a-number": (_("A number was expected"), _("Print it: what is it really?")),
+    "not-finite": (_("A number without end"), _("Where does the program divide? By what?")),
+    "wrong-key": (_("There is no such reading"), _("Compare the name with the list “It senses”.")),
     "unknown-name": (
-        "A name that has no value",
-        "Search for the line in which the name gets its value. Is it spelled the same?",
+        _("A name that has no value"),
+        _("Search for the line in which the name gets its value. Is it spelled the same?"),
     ),
-    "attribute": ("Something unknown behind a dot", "What is it that stands before the dot?"),
-    "endless": ("A loop that never ends", "What must happen so that this loop ends?"),
-    "recursion": ("A function calls itself without end", "Which call is the last one, and why?"),
-    "memory": ("More memory than there is", "What grows here with each decision?"),
-    "numpy": ("numpy is not there", "A reading has .min(), .max(), .sum() and .mean() itself."),
-    "import": ("Something can't be imported", "The program may import what comes with Python."),
+    "attribute": (_("Something unknown behind a dot"), _("What is it that stands before the dot?")),
+    "endless": (_("A loop that never ends"), _("What must happen so that this loop ends?")),
+    "recursion": (
+        _("A function calls itself without end"),
+        _("Which call is the last one, and why?"),
+    ),
+    "memory": (_("More memory than there is"), _("What grows here with each decision?")),
+    "numpy": (
+        _("numpy is not there"),
+        _("A reading has .min(), .max(), .sum() and .mean() itself."),
+    ),
+    "import": (
+        _("Something can't be imported"),
+        _("The program may import what comes with Python."),
+    ),
 }
 """Title of each kind of mistake, and a question or advice for the teacher to say."""
 
@@ -331,7 +340,14 @@ class Stars:
         """
         most = library_star_counts().get(scene, 0)
         if not 1 <= count <= most:
-            raise ValueError(f"expected 1 to {most} stars in the scene {scene[:80]!r}, got {count}")
+            raise ValueError(
+                _(
+                    "expected 1 to {most} stars in the scene {scene!r}, got {count}",
+                    most=most,
+                    scene=scene[:80],
+                    count=count,
+                )
+            )
         with self._store.transaction() as database:
             database.execute(
                 "insert into stars values (?, ?, ?) "

@@ -15,6 +15,8 @@ from ai4u_edu.classroom.assignments import AssignedScene
 from ai4u_edu.classroom.episode_check import Claim, EpisodeCheck
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.store import ClassStore, SeatRow
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text, packed, unpacked
 from ai4u_edu.wire.class_link import CurrentRace, EpisodeResult, RaceRow
 
 WINNING = ("goal", "won")
@@ -184,7 +186,9 @@ class Races:
                     path.parent.mkdir(parents=True, exist_ok=True)
                     write_atomically(path, result.episode)
                 except OSError as error:
-                    raise StoreError(f"The class can't save an episode: {error}") from None
+                    raise StoreError(
+                        _("The class can't save an episode: {problem}", problem=str(error))
+                    ) from None
             verdict: Verdict = "open" if is_open else "none"
             one = RaceResult(result.key, room, result.outcome, result.seconds, verdict)
             row = (one.key, result.race, room, one.outcome, one.seconds, verdict, "")
@@ -231,6 +235,7 @@ class Races:
         """
         if self.now is None or result.key not in self.results:  # of a race before
             return
+        reason = packed(reason)
         judged = replace(result, verdict=verdict, reason=reason)
         with self._store.transaction() as database:
             database.execute(
@@ -347,7 +352,7 @@ class RaceRunner:
         board = [self._row(each) for each in best]
         if not is_projected:
             board += [
-                self._row(each) | {"outcome": "refused", "why": each.reason}
+                self._row(each) | {"outcome": "refused", "why": unpacked(each.reason)}
                 for each in self._races.refused().values()
             ]
         elif race.is_board_hidden:
@@ -356,7 +361,7 @@ class RaceRunner:
             "id": race.id,
             "phase": race.phase,
             "starts_in": round(self._races.starts_in_s, 1),
-            "scene": race.title,
+            "scene": library_text(race.title),
             "is_board_hidden": race.is_board_hidden,
             "board": board,
         }

@@ -6,10 +6,11 @@ import secrets
 from contextlib import nullcontext
 
 from starlette.requests import HTTPConnection
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import RedirectResponse, Response
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.errors import RoomError
 from ai4u_edu.classroom.join import seat_of
 from ai4u_edu.classroom.live_class import LiveClass
@@ -17,8 +18,10 @@ from ai4u_edu.classroom.room_process import ROOMS_PATH, path_of
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
 from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.page.server.token_auth import PageCookie
 from ai4u_edu.page.server.token_page import wants_page
 
@@ -26,11 +29,11 @@ SCRIPTS_PATH = "ws/remote"
 """Path of a room's socket for scripts, which have no cookie."""
 INPUT_PATH = "ws/input"
 """Path of the socket that each page of a room has."""
-NO_KEY = (
-    "expected the key of a seat of this world; take the whole address that its page shows under "
-    "Python, with ?token=... at its end"
+NO_KEY = _(
+    "expected the key of a seat of this world; take the whole address that its "
+    "page shows under Python, with ?token=... at its end"
 )
-LEFT = "you have no place in this class now; ask your teacher, or join again"
+LEFT = _("you have no place in this class now; ask your teacher, or join again")
 TEACHER = 0
 """Number that stands for the teacher in the place of a seat's."""
 
@@ -102,7 +105,7 @@ class RoomEntrance:
             given = HTTPConnection(scope).headers.get("authorization", "")
             visitor = self._keys.seat_of(room, given)
             if visitor is None:
-                refusal = PlainTextResponse(NO_KEY, 403)
+                refusal = TextResponse(NO_KEY, 403)
                 await WebSocket(scope, receive, send).send_denial_response(refusal)
                 return
         if visitor is None:
@@ -130,7 +133,7 @@ class RoomEntrance:
         try:
             address = await self._rooms.enter(room, self._seats.scenes()[room])
         except RoomError as error:
-            await _say_not_ready(str(error), scope, receive, send)
+            await _say_not_ready(text_of(error), scope, receive, send)
             return
         if scope["type"] == "http":
             await self._proxy.http(address, visitor, scope, receive, send)
@@ -159,7 +162,7 @@ async def _refuse(scope: Scope, receive: Receive, send: Send) -> None:
     if scope["type"] == "websocket":
         await refuse_socket(scope, receive, send, NOT_ALLOWED, LEFT)
         return
-    response: Response = PlainTextResponse("this is not your world; join the class at /\n", 403)
+    response: Response = TextResponse(_("this is not your world; join the class at /"), 403)
     if scope["method"] == "GET" and wants_page(HTTPConnection(scope)):
         response = RedirectResponse("/", 303)
     response.headers["Cache-Control"] = "no-store"
@@ -171,4 +174,4 @@ async def _say_not_ready(text: str, scope: Scope, receive: Receive, send: Send) 
         await refuse_socket(scope, receive, send, TRY_LATER, text)
         return
     headers = {"Retry-After": "2", "Refresh": "2", "Cache-Control": "no-store"}
-    await PlainTextResponse(text + "\n", 503, headers)(scope, receive, send)
+    await TextResponse(text + "", 503, headers)(scope, receive, send)

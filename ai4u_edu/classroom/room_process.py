@@ -11,7 +11,7 @@ from pathlib import Path
 from starlette.applications import Starlette
 
 from ai4u_edu.base.atomic_write import make_folder
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.process_signals import ask_to_end
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.classroom.room_watch import limit_own_files
@@ -114,7 +114,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
             load_blocks(file)
         room = Room(settings)
     except AI4UError as error:
-        parent.send(RoomFailed(str(error)))
+        parent.send(RoomFailed(text_of(error)))
         return
     threading.Thread(target=_end_with, args=[parent], name="parent", daemon=True).start()
     scene_file = SceneFile(order.folder, room.editor, room.runner)

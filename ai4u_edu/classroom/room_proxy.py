@@ -8,7 +8,7 @@ from typing import Any
 import httpx
 from starlette.datastructures import Headers
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import PlainTextResponse, Response, StreamingResponse
+from starlette.responses import Response, StreamingResponse
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket
 from websockets.asyncio.client import ClientConnection, connect
@@ -17,9 +17,11 @@ from websockets.typing import Subprotocol
 
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.room_host import RoomAddress
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.request_target import target_of
 from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER
 from ai4u_edu.page.server.proxy import SCRIPT_KEY_HEADER, connect_viser, pass_up
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.page.server.socket_pump import pump_sockets, sendable_code
 
 _HOP_BY_HOP = {
@@ -122,7 +124,7 @@ class RoomProxy:
         except ClientDisconnect:  # in the middle of what it sends
             return
         except httpx.HTTPError:
-            response = PlainTextResponse("Your world does not answer. Reload in a moment.\n", 503)
+            response = TextResponse(_("Your world does not answer. Reload in a moment."), 503)
             await response(scope, receive, send)
             return
         response = StreamingResponse(_body_of(answer), answer.status_code)
@@ -192,7 +194,7 @@ class RoomProxy:
         try:
             there = await connecting
         except (OSError, InvalidHandshake):
-            await page.close(TRY_LATER, "the world does not answer; reload the page in a moment")
+            await page.close(TRY_LATER, _("the world does not answer; reload the page in a moment"))
             return
         link = _Link(there)
         links = self._links.setdefault(seat, set())

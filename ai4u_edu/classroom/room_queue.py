@@ -18,13 +18,14 @@ from ai4u_edu.base.atomic_write import reason
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.trainings import FULL
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.teach.learning import STOPPED
 from ai4u_edu.wire.class_link import Practised, TaskState
 from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 MAX_ENDED = 3
 """Rows of a room that are over and still listed, so that it learns how they ended."""
-MISSING = "its files are not there any more; begin another one"
+MISSING = _("its files are not there any more; begin another one")
 
 
 class _Process(Protocol):
@@ -159,7 +160,7 @@ class RoomQueue(ABC, Generic[RowT, StateT]):
         except (OSError, msgspec.MsgspecError) as error:
             problem = MISSING
             if isinstance(error, OSError) and not isinstance(error, FileNotFoundError):
-                problem = f"it could not begin: {reason(error)}"
+                problem = _("it could not begin: {reason}", reason=reason(error))
             await self._end_row(row, problem)
             return False
         row.process = process

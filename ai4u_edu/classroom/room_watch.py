@@ -12,6 +12,7 @@ import httpx
 import psutil
 
 from ai4u_edu.classroom.room_host import RoomAddress
+from ai4u_edu.locale import gettext as _
 
 MB = 2**20
 HEALTH_TIMEOUT_S = 5.0
@@ -84,16 +85,17 @@ class RoomWatch:
         except psutil.Error:  # it has ended
             return ""
         if memory_mb > self._limits.max_memory_mb:
-            return (
-                f"Your world used {memory_mb:.0f} MB of memory, more than the "
-                f"{self._limits.max_memory_mb:.0f} MB that it may. It starts again with its last "
-                "scene; make that smaller."
+            return _(
+                "Your world used {memory_mb:.0f} MB of memory, more than the {most:.0f} MB "
+                "that it may. It starts again with its last scene; make that smaller.",
+                memory_mb=memory_mb,
+                most=self._limits.max_memory_mb,
             )
         since = self._unanswered_since
         limit_s = self._limits.answer_timeout_s
         # a process that gets no processor is not to blame, and to start another one costs more
         if since is not None and self._clock() - since - self._queued_s() > limit_s:
-            return "Your world did not answer any more. It starts again with its last scene."
+            return _("Your world did not answer any more. It starts again with its last scene.")
         if (share > BUSY_SHARE) != self._is_busy:
             self._is_busy = not self._is_busy
             self._set_niceness(BUSY_NICENESS if self._is_busy else NICENESS)

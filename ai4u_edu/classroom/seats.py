@@ -72,12 +72,14 @@ class RoomRule:
         Raises:
             SetupError: it is none.
         """
-        kind, _, number = text.partition(":")
+        kind, _colon, number = text.partition(":")
         if kind == "teams" and number.isdecimal() and 1 <= int(number) <= MAX_SEATS:
             return cls(kind, int(number))
         if kind in ("each", "pairs", "one") and not number:
             return cls(kind)
-        raise SetupError(f"--rooms: expected each, pairs, teams:N or one, got {text!r}")
+        raise SetupError(
+            _("--rooms: expected each, pairs, teams:N or one, got {text!r}", text=text)
+        )
 
     def room_for(self, seats: Iterable[SeatRow]) -> str:
         """Return the room that a new seat shares; empty for a room of its own."""
@@ -117,7 +119,13 @@ class Seats:
     ) -> None:
         if language not in LANGUAGES:
             known = ", ".join(LANGUAGES)
-            raise SetupError(f"--language: expected one of {known}, got {language!r}")
+            raise SetupError(
+                _(
+                    "language: expected one of {known}, got {language!r}",
+                    known=known,
+                    language=language,
+                )
+            )
         self._store, self._scene, self._rooms = store, scene, rooms
         self._language, self._clock = language, clock
         self._made_at: dict[int, float] = {}

@@ -22,6 +22,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.folder_quota import MAX_GB, FolderQuota
+from ai4u_edu.locale import gettext as _
 
 Model = TypeVar("Model", bound=BaseModel)
 _logger = logging.getLogger(__name__)
@@ -273,7 +274,9 @@ class ClassStore:
                     (self.folder / f"{FILE}{ending}").unlink(missing_ok=True)
                 self._database = _opened(self.folder / FILE)
             except (OSError, SetupError) as error:
-                raise StoreError(f"The class's file can't be deleted: {error}") from None
+                raise StoreError(
+                    _("The class's file can't be deleted: {problem}", problem=str(error))
+                ) from None
 
     def __enter__(self) -> Self:
         return self
@@ -387,7 +390,9 @@ class ClassStore:
             try:
                 return self._database.execute(sql, values).fetchall()
             except sqlite3.Error as error:
-                raise StoreError(f"The class's file can't be read: {_cause(error)}") from None
+                raise StoreError(
+                    _("The class's file can't be read: {cause}", cause=_cause(error))
+                ) from None
 
     @contextmanager
     def transaction(self) -> Iterator[sqlite3.Connection]:
@@ -408,7 +413,9 @@ class ClassStore:
                         self._database.execute("rollback")
                     raise
             except sqlite3.Error as error:
-                raise StoreError(f"The class can't save anything now: {_cause(error)}") from None
+                raise StoreError(
+                    _("The class can't save anything now: {cause}", cause=_cause(error))
+                ) from None
 
 
 def _opened(path: Path) -> sqlite3.Connection:
@@ -436,17 +443,30 @@ def _opened(path: Path) -> sqlite3.Connection:
             database.executescript(f"begin; {change} pragma user_version = {version}; commit")
     except sqlite3.Error as error:
         raise SetupError(
-            f"expected a class's file at {path}, and couldn't use it: {_cause(error)}"
+            _(
+                "expected a class's file at {path}, and couldn't use it: {cause}",
+                path=str(path),
+                cause=_cause(error),
+            )
         ) from None
     except OSError as error:
         raise SetupError(
-            f"expected a class's file at {path}, and couldn't use it: {reason(error)}"
+            _(
+                "expected a class's file at {path}, and couldn't use it: {reason}",
+                path=str(path),
+                reason=reason(error),
+            )
         ) from None
     if version != VERSION:
         database.close()
         raise SetupError(
-            f"{path} was made by another version of ai4u-edu (tables {version}, expected "
-            f"{VERSION}); use another --folder"
+            _(
+                "{path} was made by another version of ai4u-edu (tables {version}, expected "
+                "{expected}); use another --folder",
+                path=str(path),
+                version=version,
+                expected=VERSION,
+            )
         )
     return database
 
@@ -461,11 +481,16 @@ def _locked(folder: Path) -> FileLock:
         lock = FileLock(folder / LOCK_FILE)
     except LockedError:
         raise SetupError(
-            f"{folder}: another class runs in this folder; end that one first, or give this one "
-            "another --folder"
+            _(
+                "{folder}: another class runs in this folder; end that one first, or give "
+                "this one another --folder",
+                folder=str(folder),
+            )
         ) from None
     except OSError as error:
-        raise SetupError(f"{folder}: it can't be locked: {reason(error)}") from None
+        raise SetupError(
+            _("{folder}: it can't be locked: {reason}", folder=str(folder), reason=reason(error))
+        ) from None
     make_private(lock.path)
     return lock
 
@@ -480,18 +505,20 @@ def _prepare_file(path: Path) -> None:
         make_private(path.with_name(f"{path.name}{ending}"))
 
 
-_DAMAGED = "The file is damaged. Put a copy in its place, or use another --folder."
+_DAMAGED = _("The file is damaged. Put a copy in its place, or use another --folder.")
 _CAUSES = {
-    sqlite3.SQLITE_FULL: "The disk is full. Make room on it.",
-    sqlite3.SQLITE_IOERR: "The disk can't be read or written. Is it full, or was it taken out?",
-    sqlite3.SQLITE_READONLY: "The file may not be written to. Allow it in the folder's settings.",
-    sqlite3.SQLITE_PERM: "The file may not be written to. Allow it in the folder's settings.",
-    sqlite3.SQLITE_CANTOPEN: "The file can't be opened. Is its folder still there?",
-    sqlite3.SQLITE_BUSY: "Another program has the file open. Close that program.",
-    sqlite3.SQLITE_LOCKED: "Another program has the file open. Close that program.",
+    sqlite3.SQLITE_FULL: _("The disk is full. Make room on it."),
+    sqlite3.SQLITE_IOERR: _("The disk can't be read or written. Is it full, or was it taken out?"),
+    sqlite3.SQLITE_READONLY: _(
+        "The file may not be written to. Allow it in the folder's settings."
+    ),
+    sqlite3.SQLITE_PERM: _("The file may not be written to. Allow it in the folder's settings."),
+    sqlite3.SQLITE_CANTOPEN: _("The file can't be opened. Is its folder still there?"),
+    sqlite3.SQLITE_BUSY: _("Another program has the file open. Close that program."),
+    sqlite3.SQLITE_LOCKED: _("Another program has the file open. Close that program."),
     sqlite3.SQLITE_CORRUPT: _DAMAGED,
     sqlite3.SQLITE_NOTADB: _DAMAGED,
-    sqlite3.SQLITE_CONSTRAINT: "This is a mistake of ai4u-edu; please report it.",
+    sqlite3.SQLITE_CONSTRAINT: _("This is a mistake of ai4u-edu; please report it."),
 }
 """Sentences about errors of SQLite, by their primary code."""
 
@@ -501,7 +528,9 @@ def _cause(error: sqlite3.Error) -> str:
     code = getattr(error, "sqlite_errorcode", None)  # not set by the module's own errors
     # an extended code has the primary one in its lowest byte
     sentence = "" if code is None else _CAUSES.get(code & 0xFF, "")
-    return f"{sentence} ({error})" if sentence else f"{error}."
+    if not sentence:
+        return f"{error}."
+    return _("{sentence} ({problem})", sentence=sentence, problem=str(error))
 
 
 def teacher_token(store: ClassStore) -> str:

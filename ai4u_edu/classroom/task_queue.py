@@ -19,6 +19,8 @@ from msgspec.structs import replace
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.classroom.room_queue import QueueRow, RoomQueue
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed
 from ai4u_edu.teach.background import cpu_s, send_request, start_process
 from ai4u_edu.teach.opened_network import FILE, OpenRequest
 from ai4u_edu.teach.tasks import FOLDER, MODULES, NOTES, REQUEST
@@ -29,8 +31,7 @@ MAX_CPU_S: Mapping[TaskKind, float] = {"open": 60.0, "try": 600.0}
 """Processor time of one task; the process of an ``open`` has a shorter limit of its own."""
 POLL_S = 0.2
 """Interval at which the processes are looked at."""
-TOO_LONG = "it has used all its processor time, {minutes:g} minutes"
-TOO_MANY = "this world has such a task already; wait until it is done"
+TOO_MANY = _("this world has such a task already; wait until it is done")
 
 
 @dataclass(eq=False)
@@ -58,8 +59,8 @@ class TaskQueue(RoomQueue[_Row, TaskState]):
         for row in self._open(room):
             if row.state.kind == "try":
                 if row.state.place:
-                    return f"waits to try values, place {row.state.place}"
-                return f"tries values, {row.done} of {row.total} episodes"
+                    return _("waits to try values, place {place}", place=row.state.place)
+                return _("tries values, {done} of {total} episodes", done=row.done, total=row.total)
         return ""
 
     async def add(self, room: str, request: Task) -> None:
@@ -93,7 +94,13 @@ class TaskQueue(RoomQueue[_Row, TaskState]):
         if not process.is_running:
             await self._end_row(row, "")
         elif process.cpu_s() > max_cpu_s:
-            await self._end_row(row, TOO_LONG.format(minutes=max_cpu_s / 60))
+            await self._end_row(
+                row,
+                _(
+                    "it has used all its processor time, {minutes:g} minutes",
+                    minutes=max_cpu_s / 60,
+                ),
+            )
         else:
             done = row.done
             await asyncio.to_thread(self._look, row)
@@ -191,4 +198,4 @@ def _tried(folder: Path) -> list[TryNote]:
 
 
 def _line(note: TryNote) -> bytes:
-    return msgspec.json.encode(note) + b"\n"
+    return msgspec.json.encode(note, enc_hook=packed) + b"\n"

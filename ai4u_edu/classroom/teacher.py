@@ -52,8 +52,8 @@ from ai4u_edu.wire.class_link import (
 
 MAX_BODY_BYTES = 4 * MAX_SENT_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
 MAX_COUNTDOWN_S = 60.0
-HANDED_OUT_TITLE = "From your teacher"
-STOPPED_BY_TEACHER = "your teacher has stopped it"
+HANDED_OUT_TITLE = _("From your teacher")
+STOPPED_BY_TEACHER = _("your teacher has stopped it")
 _RoomId = Annotated[str, Field(max_length=40)]
 _Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
 _Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]
@@ -369,8 +369,8 @@ class Teacher:
                 await asyncio.to_thread(self._seats.set_state, wanted.seat, SeatState.BANNED)
                 if wanted.new_code:
                     await asyncio.to_thread(self._seats.change_code)
-        self._proxy.end(wanted.seat, "your teacher has sent you out; ask before you join again")
-        self._live.end_links(wanted.seat, "Your teacher has sent you out. Join again.")
+        self._proxy.end(wanted.seat, _("your teacher has sent you out; ask before you join again"))
+        self._live.end_links(wanted.seat, _("Your teacher has sent you out. Join again."))
         (seat,) = (seat for seat in self._seats.all() if seat.number == wanted.seat)
         if not self._live.seats_of_id(seat.room):  # nobody is left to see the results
             await self._live.tasks.stop(seat.room)
@@ -507,7 +507,7 @@ def _hand_out(live: LiveClass, room: str, scene: str, number: int, others: list[
         (agent,) = [
             about.agent for name, about in own.all() if (name, about.number) == (scene, number)
         ]
-        about = KeptNetwork(0, HANDED_OUT_TITLE, agent, "handed out by your teacher")
+        about = KeptNetwork(0, HANDED_OUT_TITLE, agent, _("handed out by your teacher"))
         for other in others:
             _taught(live, other, HANDED_OUT).add(scene, network, about)
     except (SetupError, ValueError):
@@ -529,9 +529,9 @@ async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
     """
     rooms, seats = list(live.seats.scenes()), live.seats.all()
     live.seats.let_nobody_in()  # else a page that comes back would start its room again
-    live.end_all_links("The class is over, and your teacher has deleted everything of it.")
+    live.end_all_links(_("The class is over, and your teacher has deleted everything of it."))
     for seat in seats:
-        proxy.end(seat.number, "the class is over")
+        proxy.end(seat.number, _("the class is over"))
     await asyncio.gather(*(live.host.end(each) for each in rooms))
     await live.results.finish()
     await live.tournament.end()
@@ -554,7 +554,11 @@ def _delete(live: LiveClass) -> None:
                 shutil.rmtree(folder)
         except OSError as error:
             raise StoreError(
-                f"{folder} can't be deleted: {reason(error)}. Delete it yourself."
+                _(
+                    "{folder} can't be deleted: {reason}. Delete it yourself.",
+                    folder=str(folder),
+                    reason=reason(error),
+                )
             ) from None
 
 

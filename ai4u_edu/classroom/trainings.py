@@ -19,7 +19,7 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import ngettext
+from ai4u_edu.locale import ngettext, packed, unpacked
 from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.learning import DIED, LEARNED, STOPPED, Learning
 from ai4u_edu.teach.network_score import NetworkScore
@@ -32,9 +32,9 @@ SCORE_DECISIONS = 2_000
 """Decisions with which a network is scored at most: others wait meanwhile."""
 POLL_S = 0.1
 """Interval at which the process is looked at."""
-MISSING = "a drive is not there any more; choose others, and learn again"
-TOO_LONG = f"it took more than {MAX_CPU_S:g} s of processor time; choose fewer drives"
-FULL = "the class's folder is full, and keeps nothing more; tell your teacher"
+MISSING = _("a drive is not there any more; choose others, and learn again")
+TOO_LONG = _("it took more than {most:g} s of processor time; choose fewer drives", most=MAX_CPU_S)
+FULL = _("the class's folder is full, and keeps nothing more; tell your teacher")
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Trainings:
         self._rows = {
             room: _Row(
                 room,
-                msgspec.json.decode(training, type=Training),
+                _read(training),
                 msgspec.json.decode(files, type=tuple[str, ...]),
             )
             for room, training, files in rows
@@ -177,7 +177,8 @@ class Trainings:
                 score_decisions=SCORE_DECISIONS,
             )
         except OSError as error:
-            return replace(row.training, problem=f"it could not begin: {reason(error)}")
+            problem = _("it could not begin: {reason}", reason=reason(error))
+            return replace(row.training, problem=problem)
         self._running = row, learning
         self._note_change()
         try:
@@ -263,8 +264,14 @@ def _keep(path: Path, faults: list[str], _learning: Learning, out: Path) -> None
                 other.unlink()
         write_atomically(path, out.read_bytes(), mode=0o600)
     except OSError as error:
-        faults.append(f"the network could not be kept: {reason(error)}")
+        faults.append(_("the network could not be kept: {reason}", reason=reason(error)))
+
+
+def _read(text: str) -> Training:
+    training = msgspec.json.decode(text, type=Training)
+    remarks = tuple(map(unpacked, training.remarks))
+    return replace(training, problem=unpacked(training.problem), remarks=remarks)
 
 
 def _json(value: object) -> str:
-    return msgspec.json.encode(value).decode()
+    return msgspec.json.encode(value, enc_hook=packed).decode()

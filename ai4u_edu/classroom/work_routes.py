@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import JSONResponse, PlainTextResponse, Response
+from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
 
 from ai4u_edu.base.errors import text_of
@@ -45,8 +45,10 @@ from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import TOO_LARGE, check_network
 from ai4u_edu.classroom.work_zip import seat_zip, zip_response
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.limits.rate_limit import RateLimits
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 REQUESTS_PER_S = 1.0
@@ -212,7 +214,7 @@ class WorkRoutes:
         """Return a ZIP file of a seat's work."""
         seat = seat_of(self._live.seats, request)
         if seat is None:
-            return PlainTextResponse("this browser has no place in the class\n", 403, NO_STORE)
+            return TextResponse(_("this browser has no place in the class"), 403, NO_STORE)
         return zip_response(await asyncio.to_thread(seat_zip, self._live, seat), "my-work.zip")
 
     # -- programs ----------------------------------------------------------------------------------
@@ -326,7 +328,7 @@ class WorkRoutes:
         now = self._live.tournament.tournaments.now
         facts = {
             "scenes": [
-                {"name": scene.name, "title": scene.title, "parts": scene.parts}
+                {"name": scene.name, "title": library_text(scene.title), "parts": scene.parts}
                 for scene in scenes.values()
             ],
             "scene": "" if now is None else now.scene,
@@ -338,9 +340,16 @@ class WorkRoutes:
     async def _take_network(self, seat: int, request: Request) -> None:
         kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
         if kind != _NETWORK_TYPE:
-            raise HTTPException(415, f"Content-Type: expected {_NETWORK_TYPE}, got {kind[:80]!r}")
+            raise HTTPException(
+                415,
+                _(
+                    "Content-Type: expected {network_type}, got {kind!r}",
+                    network_type=_NETWORK_TYPE,
+                    kind=kind[:80],
+                ),
+            )
         if seat in self._sending:
-            raise HTTPException(429, "Another file of yours is being sent. Wait for its end.")
+            raise HTTPException(429, _("Another file of yours is being sent. Wait for its end."))
         given = request.query_params
         scene, part, file = (given.get(name, "") for name in ("scene", "part", "file"))
         self._sending.add(seat)

@@ -10,6 +10,8 @@ import typer
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 Rooms = Annotated[
     str, typer.Option(help="A room for each student, or shared: each, pairs, teams:N or one.")
@@ -18,9 +20,6 @@ Folder = Annotated[
     Path, typer.Option(help="Folder of the class; started with it again, the class goes on.")
 ]
 JoinCode = Annotated[str, typer.Option(help="Join code. Default: a random one.")]
-Language = Annotated[
-    str, typer.Option(help="Language of students' names: en, de, es, fr, ko or pt.")
-]
 SleepAfter = Annotated[
     float,
     typer.Option(
@@ -69,7 +68,6 @@ def classroom(
     host: o.Host = "0.0.0.0",  # noqa: S104 - a class is for other machines
     port: o.Port = 8080,
     code: JoinCode = "",
-    language: Language = "en",
     sleep_after: SleepAfter = 5.0,
     room_memory: RoomMemory = 600.0,
     receive_timeout: o.ReceiveTimeout = 2000,
@@ -87,14 +85,17 @@ def classroom(
     if hub:
         if missions is not None:
             raise SetupError(
-                "--missions: expected a class of its own, got --hub; there, worlds run on the "
-                "students' servers: start them with play --missions"
+                _(
+                    "--missions: expected a class of its own, got --hub; there, worlds run on the "
+                    "students' servers: start them with play --missions"
+                )
             )
         _serve_at_hub(context)
         return
     from ai4u_edu.classroom import ClassStore, LocalRooms, RoomRule, Seats, class_app
     from ai4u_edu.classroom.addresses import class_banner, join_address, teacher_address
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
+    from ai4u_edu.classroom.names import names_language
     from ai4u_edu.classroom.room_watch import RoomLimits
     from ai4u_edu.classroom.store import teacher_token
     from ai4u_edu.missions import mission_map
@@ -105,7 +106,7 @@ def classroom(
 
     Scene.load(scene)  # a mistake in it is said here, and not in each room
     for problem in mission_map(missions)().problems if missions else ():
-        typer.echo(problem, err=True)
+        typer.echo(translate(problem), err=True)
     limits = RoomLimits(sleep_after_s=60 * sleep_after, max_memory_mb=room_memory)
     rule, blocks = RoomRule.parse(rooms), own_blocks or ()
     made = LocalRooms(
@@ -118,13 +119,14 @@ def classroom(
     )
     with ClassStore(folder, max_folder) as store, closing(made) as local:
         local.quota = store.quota
-        seats = Seats(store, scene, rule, code, language)
+        seats = Seats(store, scene, rule, code, names_language())
         token = teacher_token(store)
 
         def announce(url: str) -> None:
             local.class_url = url
             app.state.begin()
-            typer.echo(class_banner(join_address(host, url), seats.code, url, token))
+            banner = class_banner(join_address(host, url), seats.code, url, token)
+            typer.echo(translate(banner))
             if open_page:
                 open_on_desktop(teacher_address(url, token))
 
@@ -158,6 +160,7 @@ def _serve_at_hub(context: typer.Context) -> None:
     from ai4u_edu.classroom import ClassStore, RoomRule, Seats
     from ai4u_edu.classroom.gateway import SERVER_LIMITS
     from ai4u_edu.classroom.hub import HubEnvironment, hub_class_app
+    from ai4u_edu.classroom.names import names_language
     from ai4u_edu.page.server import serve
     from ai4u_edu.page.server.process_exit import HAS_SERVED
     from ai4u_edu.runtime.process_tuning import released_memory, tuned_process
@@ -167,11 +170,12 @@ def _serve_at_hub(context: typer.Context) -> None:
     is_host_given = source is not None and source.name != "DEFAULT"
 
     def announce(url: str) -> None:
-        typer.echo(f"The class is a service of the hub: {url.rstrip('/')}{hub.prefix}")
+        address = f"{url.rstrip('/')}{hub.prefix}"
+        typer.echo(translate(_("The class is a service of the hub: {address}", address=address)))
 
     with ClassStore(options["folder"], options["max_folder"]) as store:
         rule = RoomRule.parse("each")
-        seats = Seats(store, options["scene"], rule, language=options["language"])
+        seats = Seats(store, options["scene"], rule, language=names_language())
         app = hub_class_app(
             store,
             seats,

@@ -29,6 +29,7 @@ from ai4u_edu.learn.training.prepare import prepare, with_learner
 from ai4u_edu.learn.training.progress_bar import ProgressBar
 from ai4u_edu.learn.training.run import Check, Config, Run, Trained
 from ai4u_edu.learn.training.settings import NO_REWARD, Settings
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
@@ -90,13 +91,18 @@ def train(
     """
     if settings.observation != "flat":
         raise SetupError(
-            "the small learner takes readings as one row of numbers (observation: flat); pictures "
-            'are for Stable-Baselines3: pip install "ai4u-edu[train]"'
+            _(
+                "the small learner takes readings as one row of numbers (observation: "
+                'flat); pictures are for Stable-Baselines3: pip install "ai4u-edu[train]"'
+            )
         )
     if settings.without_reward != NO_REWARD:
         raise SetupError(
-            f"without_reward: the small learner has a weight for each term; say --reward "
-            f"{settings.without_reward}=0"
+            _(
+                "without_reward: the small learner has a weight for each term; say --reward "
+                "{without_reward}=0",
+                without_reward=settings.without_reward,
+            )
         )
     settings = with_learner(scene, settings, quiet=quiet)
     opponents = _opponents(scene, settings, against)
@@ -169,8 +175,13 @@ def resume(
     config = config.model_copy(update={"steps": steps or config.steps})
     if training.ppo.decisions >= config.steps:
         raise SetupError(
-            f"{folder} has learned from {training.ppo.decisions} steps already; "
-            f"expected --steps larger than that, got {config.steps}"
+            _(
+                "{folder} has learned from {decisions} steps already; expected --steps "
+                "larger than that, got {steps}",
+                folder=str(folder),
+                decisions=training.ppo.decisions,
+                steps=config.steps,
+            )
         )
     return _learn(run, config, training, on_round, quiet=quiet)
 

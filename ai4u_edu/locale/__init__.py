@@ -34,7 +34,9 @@ from ai4u_edu.locale.text import (
     library_text,
     listed,
     ngettext,
+    packed,
     sentence,
+    unpacked,
 )
 
 __all__ = [
@@ -58,9 +60,11 @@ __all__ = [
     "library_text",
     "listed",
     "ngettext",
+    "packed",
     "page_catalogue",
     "reader",
     "sentence",
     "set_language",
     "translate",
+    "unpacked",
 ]

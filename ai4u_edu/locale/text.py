@@ -1,5 +1,7 @@
 """Sentences that can be shown in several languages; in code they are English."""
 
+import json
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any, Final, Self
 
@@ -10,6 +12,12 @@ LIBRARY: Final = "library"
 
 Value = str | int | float
 """A value in a sentence; a :class:`Text` is translated with the sentence."""
+
+MAX_PACKED_CHARS: Final = 4000
+"""Most characters of a text that is packed for a file or another process."""
+_PACKED = "\x1e"
+"""Begins a packed text: ASCII's record separator, which no sentence has."""
+_SAFE_FORMATS = re.compile(r"\{\{|\}\}|\{\w+(![rs])?(:[+,]?(\.\d)?[a-z%]?)?\}")
 
 
 class Text(str):
@@ -125,3 +133,61 @@ def sentence(text: str) -> str:
         made_of = text.msgid, text.values, text.plural, text.number
         return Text(*made_of, is_sentence=True, domain=text.domain)
     return text[:1].upper() + text[1:].rstrip(".") + "." if text else ""
+
+
+def packed(text: object, max_chars: int = MAX_PACKED_CHARS) -> str:
+    """Return a text as a plain string, for a file or another process, which unpacks it.
+
+    It is a hook for msgspec's encoders, too.
+
+    Args:
+        text: the text; a plain string stays as it is.
+        max_chars: the most characters; the text is packed in English if it needs more.
+
+    Raises:
+        NotImplementedError: it is no string.
+
+    >>> unpacked(packed(gettext("no body is called {name!r}", name="bxo"))).values
+    {'name': 'bxo'}
+    """
+    if not isinstance(text, str):
+        raise NotImplementedError(f"expected data, got a {type(text).__name__}")
+    if not isinstance(text, Text):
+        return text
+    values = {name: packed(v) if isinstance(v, str) else v for name, v in text.values.items()}
+    parts = text.msgid, values, text.plural, text.number, text.is_sentence, text.domain
+    whole = _PACKED + json.dumps(parts, ensure_ascii=False, separators=(",", ":"))
+    return whole if len(whole) <= max_chars else str(text)
+
+
+def unpacked(text: str) -> str:
+    """Return the text that was packed; a plain string as it is.
+
+    Args:
+        text: from anybody; it is empty if it is packed, but not as :func:`packed` does it.
+    """
+    if not text.startswith(_PACKED):
+        return text
+    try:
+        msgid, values, plural, number, is_sentence, domain = json.loads(text[len(_PACKED) :])
+        inner = {name: _value(value) for name, value in values.items()}
+        patterns = (msgid, plural) if inner else ()
+        # a pattern of somebody else's could ask for attributes, or for a gigabyte of blanks
+        if domain in (PYTHON, LIBRARY) and not any(map(_has_other_braces, patterns)):
+            return Text(msgid, inner, plural, int(number), bool(is_sentence), domain)
+    except (ValueError, TypeError, LookupError, AttributeError, RecursionError):
+        pass
+    return ""
+
+
+def _value(value: object) -> Value:
+    if isinstance(value, str):
+        return unpacked(value)
+    if isinstance(value, int | float):
+        return value
+    raise TypeError(type(value).__name__)
+
+
+def _has_other_braces(pattern: str) -> bool:
+    rest = _SAFE_FORMATS.sub("", pattern)
+    return "{" in rest or "}" in rest

@@ -8,6 +8,8 @@ import random
 from collections.abc import Callable
 from enum import Enum
 
+from ai4u_edu.base.errors import text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.link import LinkTimeouts
 from ai4u_edu.member.outbox import ResultOutbox
 from ai4u_edu.wire.class_link import (
@@ -155,7 +157,10 @@ class LinkDialogue:
         try:
             message = decode_from_class(frame)
         except WireError as error:
-            self.problem = f"The class sent a message that this version can't read: {error}"
+            self.problem = _(
+                "The class sent a message that this version can't read: {problem}",
+                problem=text_of(error),
+            )
             return None
         match message:
             case LinkWelcome() if self.phase is LinkPhase.GREETING:

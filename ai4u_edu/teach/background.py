@@ -11,6 +11,7 @@ from msgspec import Struct
 
 from ai4u_edu.base.numeric_threads import ONE_THREAD
 from ai4u_edu.base.process_family import end_with_parent
+from ai4u_edu.locale import packed
 
 NICENESS = 19
 """Niceness of the processes that are started here."""
@@ -34,7 +35,7 @@ def send_request(process: "subprocess.Popen[bytes]", request: Struct) -> None:
         OSError: it has ended already.
     """
     assert process.stdin is not None  # noqa: S101 - start_process asks for the pipe
-    process.stdin.write(msgspec.json.encode(request))
+    process.stdin.write(msgspec.json.encode(request, enc_hook=packed))
     process.stdin.close()
 
 

@@ -9,9 +9,11 @@ from pathlib import Path
 
 import msgspec
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.options import SMALL_TRAINER, load_option
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed
 from ai4u_edu.recording import Episode
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
@@ -28,10 +30,14 @@ def main() -> None:
             load_blocks(Path(file))
         _say(_learn(request))
     except AI4UError as error:
-        _say(CloneNote(problem=str(error)))
+        _say(CloneNote(problem=text_of(error)))
     except MemoryError:
         limit = MAX_MEMORY_BYTES // 2**20
-        _say(CloneNote(problem=f"these drives need more than {limit} MB; choose fewer"))
+        _say(
+            CloneNote(
+                problem=_("these drives need more than {limit} MB; choose fewer", limit=limit)
+            )
+        )
 
 
 def _learn(request: CloneRequest) -> CloneNote:
@@ -59,7 +65,7 @@ def _learn(request: CloneRequest) -> CloneNote:
 
 
 def _say(note: CloneNote) -> None:
-    sys.stdout.buffer.write(msgspec.json.encode(note) + b"\n")
+    sys.stdout.buffer.write(msgspec.json.encode(note, enc_hook=packed) + b"\n")
     sys.stdout.buffer.flush()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError
 from ai4u_edu.recording.episode import PERSON, encode
 from ai4u_edu.recording.scene_export import without_brains
@@ -22,10 +23,10 @@ MAX_DECISIONS = 20_000
 MIN_DECISIONS = 6
 """Fewest decisions of a drive to learn from, about half a second."""
 
-TOO_SHORT = "too short"
-CHANGED = "the scene was changed during it"
-OTHER_ROBOT = "the robot had other sensors or actuators"
-OTHER_SCENE = "the scene was another one"
+TOO_SHORT = _("too short")
+CHANGED = _("the scene was changed during it")
+OTHER_ROBOT = _("the robot had other sensors or actuators")
+OTHER_SCENE = _("the scene was another one")
 
 
 @dataclass(frozen=True, eq=False)

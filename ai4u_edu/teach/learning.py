@@ -12,6 +12,8 @@ import msgspec
 from msgspec import Struct
 
 from ai4u_edu.blocks.loading import own_files
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import unpacked
 from ai4u_edu.page.editing.editor import ClassTrainings
 from ai4u_edu.teach.background import cpu_s, send_request, start_process
 from ai4u_edu.teach.messages import LearningState
@@ -20,13 +22,13 @@ from ai4u_edu.teach.network_score import NetworkScore
 SCORE_DECISIONS = 5_000
 """Decisions with which a network is scored that learned from drives: about a second."""
 STOPPED = "stopped"
-DIED = "the program that learns has ended; learn again"
-NOT_FINITE = (
+DIED = _("the program that learns has ended; learn again")
+NOT_FINITE = _(
     "its numbers became too large; choose other drives, or give the sensors smaller ranges in Build"
 )
 LEARNED = "learned"
 """Folder, in that of a class's room, with networks that the room has not taken yet."""
-UNREACHABLE = "The class can't be reached now. It goes on as soon as it can."
+UNREACHABLE = _("The class can't be reached now. It goes on as soon as it can.")
 
 
 class CloneRequest(Struct, frozen=True):
@@ -153,7 +155,8 @@ class Learning:
     def _hear(self, note: CloneNote, out: Path) -> None:
         if note.update:
             self.errors.append((note.update, note.error))
-        self.note = note
+        problem, remarks = unpacked(note.problem), [*map(unpacked, note.remarks)]
+        self.note = msgspec.structs.replace(note, problem=problem, remarks=remarks)
         if note.is_done:
             self._on_done(self, out)
 
@@ -324,19 +327,19 @@ class ClassLearner:
             return None
         if latest.is_over and latest.scene != scene:
             return None
-        waiting = f"Your place in the line: {latest.place}." if latest.place else ""
+        waiting = _("Your place in the line: {place}.", place=latest.place) if latest.place else ""
         if not latest.is_over and not self._trainings.is_connected:
             waiting = UNREACHABLE
         return LearningState(
             is_over=latest.is_over,
-            problem=latest.problem,
+            problem=unpacked(latest.problem),
             waiting=waiting,
             errors=[round(error, 4) for error in latest.errors],
             drives=latest.drives,
             decisions=latest.decisions,
             alike=round(latest.alike, 3),
             commonest=round(latest.commonest, 3),
-            remarks=list(latest.remarks),
+            remarks=[*map(unpacked, latest.remarks)],
         )
 
     def begin(self, scene: str, drives: Sequence[Path], agent: str) -> None:

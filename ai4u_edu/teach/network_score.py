@@ -11,6 +11,7 @@ from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.learn.training.episode import EpisodeStats, wilson
 from ai4u_edu.learn.training.evaluating import evaluate
 from ai4u_edu.learn.training.policies import entrant
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 STARTS = 100
@@ -42,11 +43,20 @@ class NetworkScore(Struct, frozen=True):
     def sentence(self) -> str:
         """The score in words."""
         if self.has_all:
-            share = "all" if self.successes == self.starts else f"{self.successes} of all"
-            return f"It reaches the goal from {share} {self.starts} starts."
-        return (
-            f"It reaches the goal from {self.successes} of {self.starts} new starts "
-            f"(95% between {self.low:.0%} and {self.high:.0%})."
+            if self.successes == self.starts:
+                return _("It reaches the goal from all {starts} starts.", starts=self.starts)
+            return _(
+                "It reaches the goal from {successes} of all {starts} starts.",
+                successes=self.successes,
+                starts=self.starts,
+            )
+        return _(
+            "It reaches the goal from {successes} of {starts} new starts (95% between "
+            "{low:.0%} and {high:.0%}).",
+            successes=self.successes,
+            starts=self.starts,
+            low=self.low,
+            high=self.high,
         )
 
 

@@ -11,7 +11,9 @@ from types import MappingProxyType
 import msgspec
 
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, shorten
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed, unpacked
 from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.scene_folder import SceneFolder, number_of
 
@@ -83,15 +85,18 @@ class NetworkFolder:
         """
         if len(self._networks.files(scene)) >= MAX_NETWORKS:
             raise SetupError(
-                f"expected at most {MAX_NETWORKS} networks of a scene; delete one that you do not "
-                "need, then learn again"
+                _(
+                    "expected at most {number} networks of a scene; delete one that you "
+                    "do not need, then learn again",
+                    number=MAX_NETWORKS,
+                )
             )
         path = self._networks.next_file(scene)
         number = number_of(path)
         kept = replace(
             about,
             number=number,
-            title=about.title or f"Network {number}",
+            title=about.title or _("Network {number}", number=number),
             made_at=time.time(),
             replays=tuple(sorted(replays)),
         )
@@ -124,7 +129,9 @@ class NetworkFolder:
         """
         path = self._networks.file(scene, number)
         if not path.is_file():
-            raise SetupError(f"there is no network {number} of this scene any more")
+            raise SetupError(
+                _("there is no network {number} of this scene any more", number=number)
+            )
         return path
 
     def replay(self, scene: str, number: int, decisions: int) -> Path:
@@ -140,7 +147,12 @@ class NetworkFolder:
         self.file(scene, number)
         title = " ".join(title.split())
         if not 0 < len(title) <= MAX_TITLE_CHARS:
-            raise SetupError(f"expected a name of 1 to {MAX_TITLE_CHARS} characters")
+            raise SetupError(
+                _(
+                    "expected a name of 1 to {most} characters",
+                    most=MAX_TITLE_CHARS,
+                )
+            )
         self._write(scene, replace(self._read(scene, number), title=title))
 
     def remove(self, scene: str, number: int) -> None:
@@ -154,19 +166,21 @@ class NetworkFolder:
             plain = json.loads(self._about.file(scene, number).read_bytes())
             return KeptNetwork(
                 number=number,
-                title=str(plain["title"])[:MAX_TITLE_CHARS],
+                title=shorten(unpacked(str(plain["title"])), MAX_TITLE_CHARS),
                 agent=str(plain["agent"]),
-                how=str(plain["how"]),
+                how=unpacked(str(plain["how"])),
                 alike=None if plain["alike"] is None else float(plain["alike"]),
                 made_at=float(plain.get("made_at", 0.0)),
-                facts=tuple(str(fact) for fact in plain.get("facts", ())),
+                facts=tuple(unpacked(str(fact)) for fact in plain.get("facts", ())),
                 replays=tuple(int(decisions) for decisions in plain.get("replays", ())),
                 score=msgspec.convert(plain.get("score"), NetworkScore | None),
             )
         except (OSError, ValueError, TypeError, KeyError):  # somebody put the network there
-            return KeptNetwork(number, f"Network {number}", "", "")
+            return KeptNetwork(number, _("Network {number}", number=number), "", "")
 
     def _write(self, scene: str, about: KeptNetwork) -> None:
         write_atomically(
-            self._about.file(scene, about.number), msgspec.json.encode(about), mode=0o600
+            self._about.file(scene, about.number),
+            msgspec.json.encode(about, enc_hook=packed),
+            mode=0o600,
         )

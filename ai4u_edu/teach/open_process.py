@@ -11,6 +11,8 @@ import msgspec
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import LocalBrain, NeuralNetController
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
 from ai4u_edu.teach.network_score import score_network
@@ -36,8 +38,13 @@ def main() -> None:
         problem = str(error).replace(request.file, request.name).replace(FILE, request.name)
         note = OpenNote(problem.removeprefix(f"{request.name}: "))
     except MemoryError:
-        note = OpenNote(f"it needs more than {MAX_MEMORY_BYTES // 2**20} MB")
-    sys.stdout.buffer.write(msgspec.json.encode(note) + b"\n")
+        note = OpenNote(
+            _(
+                "it needs more than {size} MB",
+                size=MAX_MEMORY_BYTES // 2**20,
+            )
+        )
+    sys.stdout.buffer.write(msgspec.json.encode(note, enc_hook=packed) + b"\n")
 
 
 def _limit_processor_time() -> None:
@@ -56,7 +63,7 @@ def _open(request: OpenRequest) -> OpenNote:
     sim = scene.build(brains=lambda agent: brain if agent.id == request.agent else None)
     sim.reset(0)
     agent = sim.agent(request.agent)
-    for _ in range(DECISIONS):
+    for _number in range(DECISIONS):
         sim.step(agent)
         if agent.done:
             break

@@ -8,6 +8,8 @@ from msgspec import Struct
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.loading import own_files
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed, unpacked
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.network_score import NetworkScore
 from ai4u_edu.teach.tasks import REQUEST, TaskWork
@@ -19,7 +21,7 @@ MAX_CPU_S = 30
 MAX_WALL_S = 600.0
 FILE = f"network{ENDING}"
 """Name of the network in the folder of its task."""
-NO_ANSWER = f"it took more than {MAX_CPU_S} s of processor time, or too much memory"
+NO_ANSWER = _("it took more than {limit} s of processor time, or too much memory", limit=MAX_CPU_S)
 
 
 class OpenRequest(Struct, frozen=True):
@@ -70,15 +72,23 @@ def open_network(
         OSError: the folder can't be written to.
     """
     if not name.lower().endswith(ENDING):
-        raise SetupError(f"{name}: expected the file of a network ({ENDING})")
+        raise SetupError(
+            _("{name}: expected the file of a network ({ending})", name=name, ending=ENDING)
+        )
     if len(data) > MAX_NETWORK_BYTES:
-        raise SetupError(f"{name}: expected at most {MAX_NETWORK_BYTES // 2**20} MB")
+        raise SetupError(
+            _(
+                "{name}: expected at most {size} MB",
+                name=name,
+                size=MAX_NETWORK_BYTES // 2**20,
+            )
+        )
     file = folder / FILE
     file.write_bytes(data)
     place = "" if scene.folder is None else str(scene.folder)
     blocks = [str(path) for path in own_files()]
     request = OpenRequest(str(file), name, scene.dumps(), place, agent, blocks)
-    (folder / REQUEST).write_bytes(msgspec.json.encode(request))
+    (folder / REQUEST).write_bytes(msgspec.json.encode(request, enc_hook=packed))
     work, last = start(request), b""
     for lines in work.notes():
         last = lines[-1] if lines else b""
@@ -87,5 +97,7 @@ def open_network(
     except msgspec.DecodeError:
         note = OpenNote(work.problem or NO_ANSWER)
     if note.problem:
-        raise SetupError(f"{name} can't drive this robot: {note.problem}")
+        raise SetupError(
+            _("{name} can't drive this robot: {problem}", name=name, problem=unpacked(note.problem))
+        )
     return note.score

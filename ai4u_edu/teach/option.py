@@ -16,9 +16,10 @@ from types import MappingProxyType
 from typing import TypeVar
 
 from ai4u_edu.agent.block_errors import message_of
-from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.base.errors import AI4UError, SetupError, shown, text_of
 from ai4u_edu.base.options import OptionTab
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, ngettext
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.driver_options import OWN_BRAIN
 from ai4u_edu.page.editing.drivers import NETWORK
@@ -181,45 +182,45 @@ class TeachOption:
 
     async def _learn(self, page: Page, command: m.LearnFromDrives) -> Answer:
         await self.done(lambda: self._begin_learning(page.view.agent, command.drives))
-        return Answer("It learns.")
+        return Answer(_("It learns."))
 
     async def _stop_learning(self, _page: Page, _command: m.StopLearning) -> Answer:
         is_stopped = await self.done(self._learner.stop)
-        return Answer("The learning is stopped." if is_stopped else "Nothing learns now.")
+        return Answer(_("The learning is stopped.") if is_stopped else _("Nothing learns now."))
 
     async def _forget_drive(self, _page: Page, command: m.ForgetDrive) -> Answer:
         await self._changed(lambda scene: self._drives.remove(scene, command.drive))
-        return Answer(f"Drive {command.drive} is deleted.")
+        return Answer(_("Drive {drive} is deleted.", drive=command.drive))
 
     async def _drive_network(self, page: Page, command: m.DriveNetwork) -> Answer:
         editor, scene = self._required_editor(), self._scene
         file = self._networks.file(scene, command.network)
         result = await page.result(editor.set_driver(page.view.agent, f"{NETWORK}{file.name}"))
-        return change_answer("The network drives.", result)
+        return change_answer(_("The network drives."), result)
 
     async def _rename_network(self, _page: Page, command: m.RenameNetwork) -> Answer:
         number, title = command.network, command.title
         await self._changed(lambda scene: self._networks.rename(scene, number, title))
-        return Answer("The name is changed.")
+        return Answer(_("The name is changed."))
 
     async def _delete_network(self, page: Page, command: m.DeleteNetwork) -> Answer:
         file, editor = self._networks.file(self._scene, command.network), self._required_editor()
         agents = [agent.id for agent in self._runner.latest.agents]
         driven = [agent for agent in agents if editor.driver_of(agent) == f"{NETWORK}{file.name}"]
         if driven and not command.even_if_driving:
-            raise SetupError("this network drives an agent; choose another driver first")
+            raise SetupError(_("this network drives an agent; choose another driver first"))
         for agent in driven:
             await page.result(editor.set_driver(agent, f"{OWN_BRAIN}0"))
         await self._changed(lambda scene: self._networks.remove(scene, command.network))
-        return Answer("The network is deleted.")
+        return Answer(_("The network is deleted."))
 
     async def _open_network(self, page: Page, command: m.OpenNetwork) -> Answer:
         data, agent = page.upload.take(command.size), page.view.agent
         scene = self._scene
         if self._opened[0]:
-            raise SetupError("another file is being opened; wait until that is done")
+            raise SetupError(_("another file is being opened; wait until that is done"))
         self._opened = command.name, None
-        how = f"opened from the file {command.name}"
+        how = _("opened from the file {name}", name=command.name)
         about = KeptNetwork(0, Path(command.name).stem[:MAX_TITLE_CHARS], agent, how)
 
         async def open_and_keep() -> None:
@@ -236,7 +237,7 @@ class TeachOption:
         self._openings.add(task)
         task.add_done_callback(self._note_opened)
         await asyncio.shield(task)
-        return Answer(f"Opened {about.title}.")
+        return Answer(_("Opened {title}.", title=about.title))
 
     def _note_opened(self, task: asyncio.Task[object]) -> None:
         self._openings.discard(task)
@@ -268,14 +269,21 @@ class TeachOption:
 
                 return open_network(name, data, scene, agent, folder=Path(folder), start=start)
         except OSError as error:
-            raise SetupError(f"{name}: it could not be opened: {error.strerror}") from None
+            raise SetupError(
+                _(
+                    "{name}: it could not be opened: {reason}",
+                    name=name,
+                    reason=error.strerror or "",
+                )
+            ) from None
 
     @property
     def _opening_sentence(self) -> str:
         """Sentence about the file that is being opened; empty if none is."""
         name, work = self._opened
         waiting = "" if work is None else work.waiting
-        return f"Opens {name}. {waiting}".strip() if name else ""
+        opens = _("Opens {name}.", name=name)
+        return (join([opens, waiting]) if waiting else opens) if name else ""
 
     async def _download_network(self, page: Page, command: m.DownloadNetwork) -> Answer:
         file = self._networks.file(self._scene, command.network)
@@ -354,7 +362,7 @@ class TeachOption:
         try:
             self._drives.add(episode)
         except OSError as error:
-            warning = f"The last drive could not be kept: {error.strerror}."
+            warning = _("The last drive could not be kept: {reason}.", reason=error.strerror or "")
         self.work = replace(self.work, warning=warning)
         self._look()
 
@@ -388,8 +396,10 @@ class TeachOption:
         try:
             kept = self._networks.add(scene, network, about, replays)
         except (OSError, SetupError) as error:
-            reason = error.strerror if isinstance(error, OSError) else error
-            self.work = replace(self.work, warning=f"The network could not be kept: {reason}.")
+            reason = error.strerror or "" if isinstance(error, OSError) else text_of(error)
+            self.work = replace(
+                self.work, warning=_("The network could not be kept: {reason}.", reason=reason)
+            )
             self._look()
             return False
         self.work = replace(self.work, warning="")
@@ -415,23 +425,31 @@ class TeachOption:
             SetupError: it can't learn now; a sentence about why.
         """
         if self._practices.is_running or self._learner.is_busy:
-            raise SetupError("the robot learns already; wait until it is done, or stop it")
+            raise SetupError(_("the robot learns already; wait until it is done, or stop it"))
         if problem := self.work.problems.get(agent, ""):
             raise SetupError(problem)
 
     def _take(self, learned: Learned) -> bool:
         """Keep a network that has learned from drives; return False if it can't be kept."""
-        drives = f"{learned.drives} drive{'s' if learned.drives != 1 else ''}"
         about = KeptNetwork(
             number=0,
             title="",
             agent=learned.agent,
-            how=f"learned from {drives} with {learned.decisions} decisions",
+            how=ngettext(
+                "learned from {n} drive with {decisions} decisions",
+                "learned from {n} drives with {decisions} decisions",
+                learned.drives,
+                decisions=learned.decisions,
+            ),
             alike=learned.alike,
             score=learned.score,
             facts=(
-                f"Alike in {learned.alike:.0%} of {learned.held_out} moments that it had not seen.",
-                "Seed: 0.",
+                _(
+                    "Alike in {alike:.0%} of {held_out} moments that it had not seen.",
+                    alike=learned.alike,
+                    held_out=learned.held_out,
+                ),
+                _("Seed: {seed}.", seed=0),
             ),
         )
         return self.keep_network(learned.scene, learned.network, about)
@@ -440,7 +458,12 @@ class TeachOption:
         self.check_free(agent)
         good = {each.number for each in self.work.drives.get(agent, ()) if not each.reason}
         if missing := sorted(set(numbers) - good):
-            raise SetupError(f"expected drives that this robot can learn from, got {missing}")
+            raise SetupError(
+                _(
+                    "expected drives that this robot can learn from, got {missing}",
+                    missing=shown(missing),
+                )
+            )
         scene = self._scene
         files = [self._drives.file(scene, number) for number in sorted(set(numbers))]
         self._learner.begin(scene, files, agent)

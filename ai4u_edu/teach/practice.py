@@ -20,6 +20,8 @@ from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.blocks import NeuralNetController
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.learn.training.run import Run
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, packed, unpacked
 from ai4u_edu.page.editing.editor import ClassTrainings
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.teach.background import cpu_s, send_request, start_process
@@ -36,9 +38,10 @@ SCORE = "score.json"
 CLASS_KEY = "class_key"
 """File in a practice's folder with the key under which a class's process works on it."""
 
-NO_PROGRESS = (
-    "It gets no better. Stop it and change something: another factor for a reward, an easier "
-    "start, or a network that has learned from your drives to begin with."
+NO_PROGRESS = _(
+    "It gets no better. Stop it and change something: another factor for a "
+    "reward, an easier start, or a network that has learned from your drives to "
+    "begin with."
 )
 
 
@@ -65,7 +68,7 @@ class PracticeRequest(Struct, frozen=True):
     """Player of the other side: ``player``, ``self`` or a network's file; empty for nobody else
     than in the scene."""
     opponent: str = ""
-    """The same in words, which follow "decisions"."""
+    """The same in words, such as "against itself"."""
     blocks: list[str] = []
     """Python files with blocks that the scene has."""
 
@@ -130,7 +133,7 @@ class PracticeProcess:
                     assert process.stdout is not None  # noqa: S101 - start_process asks for it
                     self._last = process.stdout.read()
         try:
-            return msgspec.json.decode(self._last, type=PracticeEnd).problem
+            return unpacked(msgspec.json.decode(self._last, type=PracticeEnd).problem)
         except msgspec.DecodeError:
             return None
 
@@ -177,7 +180,11 @@ class ClassPractice:
             return ""
         if not self._trainings.is_connected:
             return UNREACHABLE
-        return f"Your place in the line: {state.place}." if state and state.place else ""
+        return (
+            _("Your place in the line: {place}.", place=state.place)
+            if state and state.place
+            else ""
+        )
 
     @property
     def problem(self) -> str | None:
@@ -185,7 +192,7 @@ class ClassPractice:
         state = self._trainings.practice(self._key)
         if self._is_left.is_set() or state is None or state.problem == STOPPED:
             return None
-        return state.problem
+        return unpacked(state.problem)
 
     def kill(self) -> None:
         """End it; the practice can go on later, with a new request."""
@@ -288,14 +295,22 @@ class Practice:
     def facts(self) -> tuple[str, ...]:
         """Sentences about its rewards and settings."""
         request = self.request
-        factors = ", ".join(f"{name} times {factor:g}" for name, factor in request.weights.items())
-        others = "all others as in the scene" if factors else "as in the scene"
-        begin = "with a network of yours" if request.begin_with else "with a new network"
-        return (
-            f"Rewards: {', '.join(filter(None, (factors, others)))}.",
-            f"It began {begin}, and could learn from {request.steps:,} decisions.",
-            f"Seed: {request.seed}.",
+        weights = request.weights.items()
+        each = [_("{name} times {factor:g}", name=name, factor=f) for name, f in weights]
+        factors = join([*each], ", ") if each else ""
+        rewards: str = _("Rewards: as in the scene.")
+        if factors:
+            rewards = _("Rewards: {factors}, all others as in the scene.", factors=factors)
+        began: str = _(
+            "It began with a new network, and could learn from {steps:,} decisions.",
+            steps=request.steps,
         )
+        if request.begin_with:
+            began = _(
+                "It began with a network of yours, and could learn from {steps:,} decisions.",
+                steps=request.steps,
+            )
+        return rewards, began, _("Seed: {seed}.", seed=request.seed)
 
     def score(self) -> NetworkScore | None:
         """Return the score of the network; None if it ended early, or in games."""
@@ -420,7 +435,9 @@ class PracticeFolder:
             opponent = folder / "opponent.onnx"
             shutil.copyfile(request.against, opponent)
             request = msgspec.structs.replace(request, against=str(opponent))
-        write_atomically(folder / "request.json", msgspec.json.encode(request), mode=0o600)
+        write_atomically(
+            folder / "request.json", msgspec.json.encode(request, enc_hook=packed), mode=0o600
+        )
         return folder, request
 
     def find(

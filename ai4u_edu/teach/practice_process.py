@@ -17,12 +17,14 @@ import msgspec
 
 from ai4u_edu.agent.block_frames import calls_of_error, calls_of_thread, find_place
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import AI4UError, shorten
+from ai4u_edu.base.errors import AI4UError, shorten, text_of
 from ai4u_edu.base.options import SMALL_TRAINER, load_option
 from ai4u_edu.blocks import LocalBrain, NeuralNetController
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.learn.training.run import Run
 from ai4u_edu.learn.training.settings import settings_for
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed
 from ai4u_edu.recording import Recorder
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.runtime.tick_monitor import Stall
@@ -64,13 +66,14 @@ def main() -> None:
             load_blocks(Path(file))
         _practise(request)
     except AI4UError as error:
-        problem = str(error)
+        problem = text_of(error)
     except MemoryError:
-        problem = f"this needs more than {MAX_MEMORY_BYTES // 2**20} MB"
+        problem = _("this needs more than {size} MB", size=MAX_MEMORY_BYTES // 2**20)
     except (Exception, SystemExit) as error:  # a block of a person's own may raise anything
         place = find_place(calls_of_error(error.__traceback__))
         text = f"{type(error).__name__}: {shorten(str(error), MAX_ERROR_CHARS)}"
-        problem = f"{place} failed: {text}" + (f" ({place.where})" if place.where else "")
+        what = _("{place} failed: {problem}", place=str(place), problem=text)
+        problem = _("{problem} ({where})", problem=what, where=place.where) if place.where else what
     _say(PracticeEnd(problem))
 
 
@@ -102,7 +105,9 @@ def _practise(request: PracticeRequest) -> None:
     replays.keep(run.best_network, _progress_of(run).decisions)
     if not request.against:  # else the checks were games
         score = score_network(scene, request.agent, run.best_network, SCORE_DECISIONS)
-        write_atomically(folder.parent / SCORE, msgspec.json.encode(score), mode=0o600)
+        write_atomically(
+            folder.parent / SCORE, msgspec.json.encode(score, enc_hook=packed), mode=0o600
+        )
 
 
 def _progress_of(run: Run) -> TrainingProgress:
@@ -148,7 +153,7 @@ class _Replays:
         recorder = Recorder(sim, scene=self._scene.description)
         agent = sim.agent(name)
         sim.reset(REPLAY_SEED)
-        for _ in range(MAX_REPLAY_DECISIONS):
+        for _number in range(MAX_REPLAY_DECISIONS):
             sim.step()
             if agent.done:
                 break
@@ -171,12 +176,12 @@ def _end_if_stalled(thread: int, own_files: frozenset[str]) -> None:
             since = time.monotonic()
         elif time.monotonic() - since > MAX_CALL_S:
             stall = Stall(since, time.monotonic() - since, find_place(calls))
-            _say(PracticeEnd(f"{stall}; it may be in an endless loop"))
+            _say(PracticeEnd(_("{stall}; it may be in an endless loop", stall=str(stall))))
             os._exit(1)
 
 
 def _say(end: PracticeEnd) -> None:
-    sys.stdout.buffer.write(msgspec.json.encode(end) + b"\n")
+    sys.stdout.buffer.write(msgspec.json.encode(end, enc_hook=packed) + b"\n")
     sys.stdout.buffer.flush()
 
 

@@ -5,8 +5,10 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, shown
 from ai4u_edu.blocks import LocalBrain, NeuralNetController
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext, unpacked
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer, change_answer
@@ -29,7 +31,11 @@ from ai4u_edu.teach.practice import (
 )
 from ai4u_edu.teach.scene_work import SceneWork
 
-OPPONENTS = {None: "", "player": " against the scene's player", "self": " against itself"}
+OPPONENTS: Mapping[str | None, str] = {
+    None: "",
+    "player": _("against the scene's player"),
+    "self": _("against itself"),
+}
 """Player of the other side in a practice, in words."""
 
 
@@ -143,7 +149,11 @@ class Practices:
             phase=practice.phase.value,
             problem=practice.problem,
             waiting=practice.waiting,
-            elsewhere="" if is_here else f"agent {request.agent} of {request.scene_name}",
+            elsewhere=""
+            if is_here
+            else _(
+                "agent {agent} of {scene_name}", agent=request.agent, scene_name=request.scene_name
+            ),
             is_scene_changed=is_here and request.scene != work.scene_text,
             hint=practice.hint,
             seconds_left=speed and (progress.total - progress.decisions) / speed,
@@ -159,42 +169,48 @@ class Practices:
 
     async def _practise(self, page: Page, command: m.PractiseForRewards) -> Answer:
         await self._teaching.done(lambda: self._begin(page.view.agent, command))
-        return Answer("It practises.")
+        return Answer(_("It practises."))
 
     async def _put_rewards(self, page: Page, command: m.PutRewards) -> Answer:
         factors = {name: factor for name, factor in command.weights.items() if factor != 1.0}
         if not factors:
-            raise SetupError("all factors are 1, as the scene has them; choose another one first")
+            raise SetupError(
+                _("all factors are 1, as the scene has them; choose another one first")
+            )
         result = await page.result(self._editor.scale_rewards(page.view.agent, factors))
-        return change_answer("The scene pays so now.", result)
+        return change_answer(_("The scene pays so now."), result)
 
     async def _pause(self, _page: Page, _command: m.PausePractising) -> Answer:
         if self._practice is None or not self.is_running:
-            return Answer("Nothing practises now.")
+            return Answer(_("Nothing practises now."))
         self._practice.pause()
-        return Answer("The practice is paused.")
+        return Answer(_("The practice is paused."))
 
     async def _go_on(self, _page: Page, _command: m.GoOnPractising) -> Answer:
         await self._teaching.done(self._begin_again)
-        return Answer("It practises.")
+        return Answer(_("It practises."))
 
     async def _stop(self, _page: Page, _command: m.StopPractising) -> Answer:
         practice = self._practice
         if practice is None or practice.phase is Phase.OVER:
-            return Answer("Nothing practises now.")
+            return Answer(_("Nothing practises now."))
         await self._teaching.done(practice.stop)
-        return Answer("The practice is stopped.")
+        return Answer(_("The practice is stopped."))
 
     async def _replay(self, page: Page, command: m.ReplayPractice) -> Answer:
         player = self._player
         file = self._networks.replay(self._scene, command.network, command.decisions)
         if player.archive is None or not file.is_file():
-            raise SetupError("this episode of the practice is not kept any more")
+            raise SetupError(_("this episode of the practice is not kept any more"))
         key = file, file.stat().st_mtime_ns
         number = self._replays.get(key)
         if number is None or player.archive.find(number) is None:
             episode = await page.in_thread(lambda: Episode.load(file))
-            source = f"network {command.network} after {command.decisions:,} decisions"
+            source = _(
+                "network {network} after {decisions:,} decisions",
+                network=command.network,
+                decisions=command.decisions,
+            )
             number = self._replays[key] = player.archive.append(episode, source).number
         player.open(number, page.view.agent)
         player.play()
@@ -223,16 +239,25 @@ class Practices:
         work, begin_with = self._teaching.work, ""
         names = work.rewards.get(agent, ())
         if not names:
-            raise SetupError("it gets no reward to practise for; add one in Build")
+            raise SetupError(_("it gets no reward to practise for; add one in Build"))
         if wrong := sorted(set(command.weights) - set(names)):
-            raise SetupError(f"expected reward terms of {', '.join(names)}, got {wrong}")
+            raise SetupError(
+                _(
+                    "expected reward terms of {names}, got {wrong}",
+                    names=", ".join(names),
+                    wrong=shown(wrong),
+                )
+            )
         if command.begin_with is not None:
             begin_with = str(self._networks.file(self._scene, command.begin_with).absolute())
         if self._practice is not None and self._practice.phase is Phase.PAUSED:
-            raise SetupError("a practice is paused; go on with it, or stop it first")
+            raise SetupError(_("a practice is paused; go on with it, or stop it first"))
         if len(work.networks) >= MAX_NETWORKS:
             raise SetupError(
-                f"this scene has {MAX_NETWORKS} networks already; delete one that you do not need"
+                _(
+                    "this scene has {number} networks already; delete one that you do not need",
+                    number=MAX_NETWORKS,
+                )
             )
         against, opponent = self._opponent(agent, command)
         scene = self._editor.scene
@@ -253,12 +278,14 @@ class Practices:
             self._practice = self._make(folder, request)
             self._practice.go_on()
         except OSError as error:
-            raise SetupError(f"the practice could not be begun: {error.strerror}") from None
+            raise SetupError(
+                _("the practice could not be begun: {reason}", reason=error.strerror or "")
+            ) from None
 
     def _begin_again(self) -> None:
         practice = self._practice
         if practice is None or practice.phase is not Phase.PAUSED:
-            raise SetupError("there is no practice that could go on; begin another one")
+            raise SetupError(_("there is no practice that could go on; begin another one"))
         self._teaching.check_free(practice.request.agent)
         practice.go_on()
 
@@ -266,15 +293,19 @@ class Practices:
         """Return who plays the other side, for the practice and in words."""
         work = self._teaching.work
         if command.against and command.against not in work.opponents.get(agent, ()):
-            raise SetupError("nobody can play against this robot in that way here; choose another")
+            raise SetupError(
+                _("nobody can play against this robot in that way here; choose another")
+            )
         if command.against != "file":
             return command.against or "", OPPONENTS[command.against]
         number = command.opponent
         if number is None:
-            raise SetupError("expected the network to play against; choose one")
+            raise SetupError(_("expected the network to play against; choose one"))
         path = self._networks.file(self._scene, number).absolute()
         titles = {network.number: network.title for network in work.networks}
-        return str(path), f" against {titles.get(number, f'Network {number}')}"
+        return str(path), _(
+            "against {network}", network=titles.get(number, _("Network {number}", number=number))
+        )
 
     def _make(self, folder: Path, request: PracticeRequest) -> Practice:
         return Practice(
@@ -317,16 +348,24 @@ class Practices:
             return
         checks = practice.progress.curve
         share = max((check.success or 0.0 for check in checks), default=0.0)
-        reached = f", goal reached from {share:.0%} of starts"
-        if practice.request.against:
-            reached = f", won {share:.0%} of its games"
-        if checks[-1].success is None:
-            reached = ""
-        how = (
-            f"practised for {practice.progress.decisions} decisions"
-            f"{practice.request.opponent}{reached}"
+        agent, against = practice.request.agent, unpacked(practice.request.opponent)
+        practised = ngettext(
+            "practised for {n} decision", "practised for {n} decisions", practice.progress.decisions
         )
-        agent = practice.request.agent
+        how: str = practised
+        if against:
+            how = _(
+                "{practised} {against}, won {share:.0%} of its games",
+                practised=practised,
+                against=against,
+                share=share,
+            )
+        elif checks[-1].success is not None:
+            how = _(
+                "{practised}, goal reached from {share:.0%} of starts",
+                practised=practised,
+                share=share,
+            )
         about = KeptNetwork(0, "", agent, how, facts=practice.facts, score=score)
         brains = [agent.brain for agent in self._runner.sim.agents if agent.id == about.agent]
         # whoever has taken over goes on driving

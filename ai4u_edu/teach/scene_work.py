@@ -7,6 +7,7 @@ from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.options import SMALL_TRAINER, load_option
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.state import reward_names
 from ai4u_edu.recording.scene_export import export_scene
@@ -15,15 +16,8 @@ from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.drives import Drive, DriveFolder, persons_decisions
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
 
-NO_SENSOR = "It senses nothing that a network could learn from. Add a sensor in Build."
-NO_ACTUATOR = "It has no actuator that a network could use. Add one in Build."
-SEVERAL = (
-    "It acts by {names}, and a network learns one actuator here. Switch the others off in Build."
-)
-NO_RANGE = "The numbers of its actuator {name} have no range, so there is nothing to aim at."
-NO_NUMBERS = (
-    "Its sensor {name} reads text, and a network learns from numbers here. Switch it off in Build."
-)
+NO_SENSOR = _("It senses nothing that a network could learn from. Add a sensor in Build.")
+NO_ACTUATOR = _("It has no actuator that a network could use. Add one in Build.")
 
 
 @dataclass(frozen=True)
@@ -88,16 +82,28 @@ def reason_against_teaching(agent: BasicAgent) -> str:
         return NO_SENSOR
     for sensor in sensors:
         if not isinstance(sensor.observation_space(), spaces.Box | spaces.Discrete):
-            return NO_NUMBERS.format(name=sensor.perception_key)
+            return _(
+                "Its sensor {name} reads text, and a network learns from numbers here. Switch it "
+                "off in Build.",
+                name=sensor.perception_key,
+            )
     if not outputs:
         return NO_ACTUATOR
     if len(outputs) > 1:
         *first, last = sorted(outputs)
-        return SEVERAL.format(names=f"{', '.join(first)} and {last}")
+        return _(
+            "It acts by {names} and {last}, and a network learns one actuator here. Switch the "
+            "others off in Build.",
+            names=", ".join(first),
+            last=last,
+        )
     ((name, space),) = outputs.items()
     if isinstance(space, spaces.Discrete) or (isinstance(space, spaces.Box) and space.is_bounded()):
         return ""
-    return NO_RANGE.format(name=name)
+    return _(
+        "The numbers of its actuator {name} have no range, so there is nothing to aim at.",
+        name=name,
+    )
 
 
 def _shown(

@@ -12,6 +12,8 @@ from typing import Protocol
 
 from msgspec import Struct
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import unpacked
 from ai4u_edu.page.editing.editor import ClassTrainings
 from ai4u_edu.teach.background import send_request, start_process
 from ai4u_edu.teach.learning import STOPPED, UNREACHABLE
@@ -110,13 +112,13 @@ class ClassTask:
             return ""
         if not self._trainings.is_connected:
             return UNREACHABLE
-        return f"Your place in the line: {task.place}." if task.place else ""
+        return _("Your place in the line: {place}.", place=task.place) if task.place else ""
 
     @property
     def problem(self) -> str:
         """Sentence about why it was ended; empty if it was not."""
         task = self._trainings.task(self._key)
-        return "" if task is None else task.problem
+        return "" if task is None else unpacked(task.problem)
 
     def notes(self) -> Iterator[Sequence[bytes]]:
         """Yield all lines so far whenever there are more, until the work has ended."""

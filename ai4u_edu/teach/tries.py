@@ -30,6 +30,8 @@ from ai4u_edu.learn.training.varying import (
     with_driver,
     with_value,
 )
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, packed, unpacked
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.driver_options import OWN_BRAIN
 from ai4u_edu.page.editing.drivers import NETWORK
@@ -49,14 +51,13 @@ MAX_PROGRAM_EPISODES = 200
 """Episodes of a program in a page, with all values."""
 MAX_STARTS = 200
 """Episodes with each value."""
-DIED = "the program that drives has ended; try again"
-BY_KEYS = "You drive this robot by keys. Choose another driver in Drive, such as a network."
-NO_PROGRAM = (
-    "A recording or a script drives this robot, which can't be tried here. Choose a network or a "
-    "controller in Drive, or your program below."
+DIED = _("the program that drives has ended; try again")
+BY_KEYS = _("You drive this robot by keys. Choose another driver in Drive, such as a network.")
+NO_PROGRAM = _(
+    "A recording or a script drives this robot, which can't be tried here. "
+    "Choose a network or a controller in Drive, or your program below."
 )
-NOTHING_TRIED = "no values are tried with a program now; try again"
-NOT_BY_PROGRAM = "{number} can't be {value:g} while a program drives: {problem}"
+NOTHING_TRIED = _("no values are tried with a program now; try again")
 
 
 class TryMany(PageCommand, tag="teach_try"):
@@ -197,7 +198,7 @@ class Tries:
     def __init__(self, request: TryRequest, work: TaskWork) -> None:
         self.request, self._work = request, work
         total = request.starts * len(request.values)
-        self._state = TriesState(False, "", "", request.label, 0, total, [])
+        self._state = TriesState(False, "", "", unpacked(request.label), 0, total, [])
         self._thread = threading.Thread(target=self._run, name="teach tries", daemon=True)
         self._thread.start()
 
@@ -222,7 +223,7 @@ class Tries:
             for note in (msgspec.json.decode(line, type=TryNote) for line in lines):
                 rows += [] if note.row is None else [note.row]
                 since = 0 if note.row is not None else since + note.done
-                problem = note.problem
+                problem = unpacked(note.problem)
             done = self.request.starts * len(rows) + since
             self._state = state = msgspec.structs.replace(
                 state, done=done, rows=rows, problem=problem
@@ -248,7 +249,7 @@ class PageWork:
 
     def add(self, row: TriedValue) -> None:
         """Note a value that is done."""
-        self._lines.put(msgspec.json.encode(TryNote(row=row)))
+        self._lines.put(msgspec.json.encode(TryNote(row=row), enc_hook=packed))
 
     def notes(self) -> Iterator[Sequence[bytes]]:
         """Yield all lines so far whenever there are more, until it has ended."""
@@ -353,16 +354,16 @@ class TryingPages:
 
     async def _try(self, page: Page, command: TryMany) -> Answer:
         await self._in_thread(lambda: self._begin(page.view.agent, command))
-        return Answer("It drives.")
+        return Answer(_("It drives."))
 
     async def _stop_trying(self, _page: Page, _command: StopTrying) -> Answer:
         tries = self._tries
         if tries is None or tries.state.is_over:
-            return Answer("Nothing is tried now.")
+            return Answer(_("Nothing is tried now."))
         tries.stop()
         if self._by_program is not None:
             self._by_program.ended.set()
-        return Answer("The tries are stopped.")
+        return Answer(_("The tries are stopped."))
 
     async def _try_program(self, page: Page, command: TryProgram) -> Answer:
         """Begin the tries of a page's program; all is done before another command of the page."""
@@ -371,8 +372,13 @@ class TryingPages:
         values = parse_values(command.values)
         if len(values) * command.starts > MAX_PROGRAM_EPISODES:
             raise SetupError(
-                f"expected at most {MAX_PROGRAM_EPISODES} episodes of a program, got "
-                f"{len(values)} values with {command.starts} starts; take fewer"
+                _(
+                    "expected at most {most} episodes of a program, got {n} "
+                    "values with {starts} starts; take fewer",
+                    most=MAX_PROGRAM_EPISODES,
+                    n=len(values),
+                    starts=command.starts,
+                )
             )
         parameter = parameter_named(editor.scene, command.parameter)
         number = _shown(parameter, agent)
@@ -384,7 +390,7 @@ class TryingPages:
             values=values,
             starts=command.starts,
             scene_name=self._scene,
-            label=f"{number.owner}: {number.label}",
+            label=join([number.owner, number.label], ": "),
         )
         self._by_program = work = PageWork()
         self._tries = Tries(request, work)
@@ -407,7 +413,7 @@ class TryingPages:
         tries = self._required_by_program()
         name, value = tries.request.parameter, command.value
         if value not in tries.request.values:
-            raise SetupError(f"expected a value that is to be tried, got {value:g}")
+            raise SetupError(_("expected a value that is to be tried, got {value:g}", value=value))
 
         def apply() -> None:
             sim = self._runner.sim
@@ -419,8 +425,14 @@ class TryingPages:
             await page.result(self._runner.submit(apply))
         except AI4UError as error:
             problem = str(error).removeprefix("options: ")
-            text = NOT_BY_PROGRAM.format(number=tries.request.label, value=value, problem=problem)
-            raise SetupError(text) from None
+            raise SetupError(
+                _(
+                    "{number} can't be {value:g} while a program drives: {problem}",
+                    number=unpacked(tries.request.label),
+                    value=value,
+                    problem=problem,
+                )
+            ) from None
         return Answer()
 
     async def _note_value(self, _page: Page, command: NoteTriedValue) -> Answer:
@@ -460,7 +472,7 @@ class TryingPages:
     async def _download(self, _page: Page, _command: DownloadTried) -> Answer:
         tries = self._tries
         if tries is None or not tries.state.rows:
-            raise SetupError("there are no results yet; try some values first")
+            raise SetupError(_("there are no results yet; try some values first"))
         request = tries.request
         data = Tried(NumberParameter(request.parameter, (), None), tries.state.rows).csv()
         name = f"{request.scene_name}-{request.parameter}.csv"
@@ -474,7 +486,7 @@ class TryingPages:
         if problem := self._reason_against(agent, driver):
             raise SetupError(problem)
         values = parse_values(command.values)
-        scene, _ = with_driver(self._editor.scene, self._spec(agent, driver), agent)
+        scene, _found = with_driver(self._editor.scene, self._spec(agent, driver), agent)
         parameter = parameter_named(scene, command.parameter)
         for value in values:  # what is wrong is said at once
             with_value(scene, parameter, value)
@@ -487,17 +499,19 @@ class TryingPages:
             values=values,
             starts=command.starts,
             scene_name=self._scene,
-            label=f"{number.owner}: {number.label}",
+            label=join([number.owner, number.label], ": "),
             blocks=[str(file) for file in own_files()],
         )
         try:
             self._tries = Tries(request, self._start(request))
         except OSError as error:
-            raise SetupError(f"they could not be begun: {error.strerror}") from None
+            raise SetupError(
+                _("they could not be begun: {reason}", reason=error.strerror or "")
+            ) from None
 
     def _check_free(self) -> None:
         if self._tries is not None and not self._tries.state.is_over:
-            raise SetupError("values are tried already; wait until they are done, or stop them")
+            raise SetupError(_("values are tried already; wait until they are done, or stop them"))
 
     def _start(self, request: TryRequest) -> TaskWork:
         """Begin the work on tries.
@@ -512,7 +526,9 @@ class TryingPages:
             shutil.rmtree(before, ignore_errors=True)
         folder = self._folder / f"{PREFIX}{secrets.token_urlsafe(12)}"
         folder.mkdir(mode=0o700, parents=True)
-        write_atomically(folder / REQUEST, msgspec.json.encode(request), mode=0o600)
+        write_atomically(
+            folder / REQUEST, msgspec.json.encode(request, enc_hook=packed), mode=0o600
+        )
         return ClassTask("try", trainings, folder)
 
     def _reason_against(self, agent: str, driver: str) -> str:
@@ -547,12 +563,12 @@ def _is_for(number: NumberParameter, agent: str, *, is_own: bool) -> bool:
 
 
 def _shown(number: NumberParameter, agent: str) -> VariableNumber:
-    kind, _, thing = number.owner.partition(".")
-    owner = "the robot" if number.owner == agent else number.owner.removeprefix(f"{agent}.")
+    kind, _dot, thing = number.owner.partition(".")
+    owner: str = number.owner.removeprefix(f"{agent}.").replace("_", " ")
+    if number.owner == agent:
+        owner = _("the robot")
     if number.path[0] != "agents":
-        owner = "the world" if kind == "world" else thing
+        owner = _("the world") if kind == "world" else thing.replace("_", " ")
     label = number.name.rpartition(".")[2].replace("_", " ")
     unit = f" ({number.shown_unit})" if number.shown_unit else ""
-    return VariableNumber(
-        number.name, owner.replace("_", " "), f"{label}{unit}", number.value, number.limits
-    )
+    return VariableNumber(number.name, owner, f"{label}{unit}", number.value, number.limits)

@@ -9,10 +9,12 @@ from pathlib import Path
 
 import msgspec
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.games.jobs import engine
 from ai4u_edu.learn.training.varying import parameter_named, try_values
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
 from ai4u_edu.teach.tries import TryNote, TryRequest
@@ -27,9 +29,16 @@ def main() -> None:
             load_blocks(Path(file))
         _try(request)
     except AI4UError as error:
-        _say(TryNote(problem=str(error)))
+        _say(TryNote(problem=text_of(error)))
     except MemoryError:
-        _say(TryNote(problem=f"this needs more than {MAX_MEMORY_BYTES // 2**20} MB"))
+        _say(
+            TryNote(
+                problem=_(
+                    "this needs more than {size} MB",
+                    size=MAX_MEMORY_BYTES // 2**20,
+                )
+            )
+        )
 
 
 def _try(request: TryRequest) -> None:
@@ -50,7 +59,7 @@ def _try(request: TryRequest) -> None:
 
 
 def _say(note: TryNote) -> None:
-    sys.stdout.buffer.write(msgspec.json.encode(note) + b"\n")
+    sys.stdout.buffer.write(msgspec.json.encode(note, enc_hook=packed) + b"\n")
     sys.stdout.buffer.flush()
 
 

@@ -28,6 +28,7 @@ from msgspec import Meta
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.locale import packed, unpacked
 from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
 from ai4u_edu.wire.validation import LIST, MAX_TEXT_CHARS, Finite, Int, Text
 
@@ -489,8 +490,14 @@ Result = EpisodeResult | ExerciseResult
 Delivery = Result | HandedInNetwork | Learn | Practise | Task | StopTraining
 """Messages that a room sends again until they are acknowledged."""
 
-_room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom)
-_class_codec: MessageCodec[FromClass] = MessageCodec(FromClass)
+
+def _sent(text: str) -> str:
+    """Return a sentence that its receiver translates for its own readers."""
+    return packed(text, MAX_TEXT_CHARS)
+
+
+_room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom, _sent)
+_class_codec: MessageCodec[FromClass] = MessageCodec(FromClass, _sent)
 
 
 def encode_from_room(message: FromRoom) -> bytes:
@@ -508,7 +515,10 @@ def decode_from_room(frame: bytes) -> FromRoom:
     Raises:
         WireError: there is no valid message in it. No other error is raised for any bytes.
     """
-    return _room_codec.decode(frame, MAX_FRAME_BYTES)
+    message = _room_codec.decode(frame, MAX_FRAME_BYTES)
+    if isinstance(message, Applied):
+        return Applied(message.assignment, unpacked(message.problem))
+    return message
 
 
 def encode_from_class(message: FromClass) -> bytes:
@@ -524,4 +534,7 @@ def decode_from_class(frame: bytes) -> FromClass:
     Raises:
         WireError: there is no valid message in it. No other error is raised for any bytes.
     """
-    return _class_codec.decode(frame, MAX_FRAME_BYTES)
+    message = _class_codec.decode(frame, MAX_FRAME_BYTES)
+    if isinstance(message, LinkProblem):
+        return LinkProblem(message.code, unpacked(message.text))
+    return message

@@ -4,11 +4,14 @@ Compatibility: a field that was added to a message later stands at its end and h
 left out of the frame if it has its default, and takes its default if it is not there.
 """
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any, Generic, TypeVar, get_args
 
 import msgspec
 from msgspec import Struct
 
+from ai4u_edu.locale import Text
 from ai4u_edu.wire.validation import WireError, find_wrong_field, shown
 
 
@@ -28,11 +31,12 @@ class MessageCodec(Generic[M]):
 
     Args:
         union: of the classes of all messages.
+        text: returns a text as it is sent; default: in English.
     """
 
-    def __init__(self, union: Any) -> None:
+    def __init__(self, union: Any, text: Callable[[str], str] = str) -> None:
         self._decoder: msgspec.msgpack.Decoder[M] = msgspec.msgpack.Decoder(union)
-        self._encoder = msgspec.msgpack.Encoder(enc_hook=_plain)
+        self._encoder = msgspec.msgpack.Encoder(enc_hook=partial(_plain, text))
         self._fields: dict[str, tuple[msgspec.inspect.Field, ...]] = {}
         for kind in get_args(union):
             info = msgspec.inspect.type_info(kind)
@@ -76,8 +80,10 @@ class MessageCodec(Generic[M]):
         return find_wrong_field(self._fields[name], parts[1:]) or str(error)
 
 
-def _plain(value: Any) -> Any:
+def _plain(text: Callable[[str], str], value: Any) -> Any:
     """Convert an instance of a subclass, such as numpy.float64."""
+    if isinstance(value, Text):
+        return text(value)
     for kind in (float, int, str):
         if isinstance(value, kind):
             return kind(value)

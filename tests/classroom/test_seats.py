@@ -242,5 +242,5 @@ def test_names_come_in_the_classs_language(store: ClassStore, language: str) -> 
 
 
 def test_a_language_without_names_is_said(store: ClassStore) -> None:
-    with pytest.raises(SetupError, match="expected one of de, en, es, fr, ko, pt, got 'xx'"):
+    with pytest.raises(SetupError, match="expected one of de, en, es, fr, ko, pt_BR, got 'xx'"):
         Seats(store, "box_chase", RoomRule(), language="xx")

@@ -5,7 +5,16 @@ import pickle
 import msgspec
 import pytest
 
-from ai4u_edu.locale import PSEUDO, Catalogue, Text, gettext, join, ngettext
+from ai4u_edu.locale import (
+    PSEUDO,
+    Catalogue,
+    Text,
+    gettext,
+    join,
+    ngettext,
+    packed,
+    unpacked,
+)
 
 ACCENTED = Catalogue(PSEUDO)
 PORTUGUESE = Catalogue("pt_BR")
@@ -73,3 +82,34 @@ def test_a_message_is_translated_while_it_is_encoded() -> None:
     message = {"text": gettext("Saved."), "name": "my scene"}
     decoded = msgspec.json.decode(encoder.encode(message))
     assert decoded == {"text": ACCENTED.translate(gettext("Saved.")), "name": "my scene"}
+
+
+def test_a_packed_text_is_translated_where_it_is_unpacked() -> None:
+    inner = gettext("the maze")
+    text = ngettext("{n} body in {scene!r}", "{n} bodies in {scene!r}", 3, scene=inner)
+    copy = unpacked(packed(text))
+    assert copy == text
+    assert ACCENTED.translate(copy) == ACCENTED.translate(text)
+    assert unpacked(packed("as it is")) == "as it is"
+    assert unpacked(msgspec.json.decode(msgspec.json.encode(text, enc_hook=packed))) == text
+    assert packed(text, 20) == text, "in English if there is no place"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        '["{a.__class__}", {"a": 1}, "", 1, false, "ai4u_edu"]',
+        '["{a:>999999999}", {"a": 1}, "", 1, false, "ai4u_edu"]',
+        '["{a[0]}", {"a": "b"}, "", 1, false, "ai4u_edu"]',
+        '["{a}", {"a": "b"}, "{b}", 2, false, "ai4u_edu"]',
+        '["{a}", {"a": "b"}, "", 1, false, "../other"]',
+        '["{a}", {"a": [1]}, "", 1, false, "ai4u_edu"]',
+        '["{a}"',
+        "[]",
+        '["{a", {"a": 1}, "", 1, false, "ai4u_edu"]',
+        '[["{a}"], {"a": 1}, "", 1, false, "ai4u_edu"]',
+        "[" * 100_000,
+    ],
+)
+def test_what_somebody_else_packed_is_read_with_care(data: str) -> None:
+    assert unpacked("\x1e" + data) == ""

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import PSEUDO, Catalogue, gettext
 from ai4u_edu.teach import networks
 from ai4u_edu.teach.networks import KeptNetwork, NetworkFolder
 
@@ -71,3 +72,14 @@ def test_a_networks_episodes_and_facts_go_with_it(tmp_path: Path) -> None:
     assert folder.networks("box_chase") == [replace(network, title="Racer")]
     folder.remove("box_chase", 1)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_how_a_network_learned_is_kept_in_no_language(tmp_path: Path) -> None:
+    fact = gettext("Seed: {seed}.", seed=7)
+    about = KeptNetwork(0, "", "0", gettext("opened from the file {name}", name="x"), facts=(fact,))
+    NetworkFolder(tmp_path).add("maze", b"one", about)
+    (found,) = NetworkFolder(tmp_path).networks("maze")
+    assert (found.title, found.how, found.facts) == ("Network 1", about.how, (fact,))
+    translate = Catalogue(PSEUDO).translate
+    assert [*map(translate, (found.how, *found.facts))] == [*map(translate, (about.how, fact))]
+    assert translate(found.how) != found.how

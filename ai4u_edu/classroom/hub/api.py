@@ -14,6 +14,7 @@ from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.no_cookies import no_cookies
 from ai4u_edu.classroom.open_limits import sign_ins
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.attempts import CodeLimit
 from ai4u_edu.page.server.limits.concurrency_limit import TooManyOpenError
 
@@ -21,7 +22,7 @@ TIMEOUT_S = 10.0
 CACHE_S = 60.0
 """Cache lifetime of a token's user; someone who has left the hub keeps access for that long."""
 MAX_CACHED = 1000
-TOO_MANY = "Too many sign-ins come from your network. Try again in a moment."
+TOO_MANY = _("Too many sign-ins come from your network. Try again in a moment.")
 _TOKEN = re.compile(r"[!-~]+")
 
 
@@ -86,8 +87,12 @@ class HubApi:
             return None
         if not set(self._hub.access_scopes) & set(found.get("scopes") or ()):
             raise NoAccessError(
-                f"expected a token of the hub with the scope {self._hub.access_scopes[1]}, got one "
-                "without it. Whoever runs the hub can add it: docs/jupyterhub.md has the settings."
+                _(
+                    "expected a token of the hub with the scope {access_scopes}, got one "
+                    "without it. Whoever runs the hub can add it: docs/jupyterhub.md has the "
+                    "settings.",
+                    access_scopes=self._hub.access_scopes[1],
+                )
             )
         user = HubUser(
             str(found["name"]),
@@ -138,4 +143,6 @@ class HubApi:
             if answer.status_code < 500:
                 return answer
             reason = f"status {answer.status_code}"
-        raise HubUnreachableError(f"The hub does not answer ({reason}). Try again in a moment.")
+        raise HubUnreachableError(
+            _("The hub does not answer ({reason}). Try again in a moment.", reason=reason)
+        )

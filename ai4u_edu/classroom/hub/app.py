@@ -10,7 +10,7 @@ from urllib.parse import quote, unquote
 from starlette.applications import Starlette
 from starlette.middleware import Middleware
 from starlette.requests import Request
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocketClose
@@ -34,7 +34,9 @@ from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.teacher import Teacher, qr_code
 from ai4u_edu.classroom.teacher_socket import WallSocket
 from ai4u_edu.classroom.tournament.files import TournamentFiles
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.host_origin import HostOriginCheck
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.wire.class_link import PATH as LINK_PATH
 
 _STUDENTS_PAGE = re.compile(r"user/([\w\-.@~%!+]+)(/[\w\-./@~%=?&]*)?", re.ASCII)
@@ -154,13 +156,13 @@ class _LookIn:
         """Return the redirect."""
         room = self._live.rooms.get(request.path_params["room"])
         if room is None or room.link is None or room.state is None or not room.state.page:
-            text = "This world has no page now. Reload the class's page.\n"
-            return PlainTextResponse(text, 404, NO_STORE)
+            text = _("This world has no page now. Reload the class's page.")
+            return TextResponse(text, 404, NO_STORE)
         # a student's program says where its page is; it may lead to that student's server only
         user = _user_of_page(room.state.page)
         if not user or not await asyncio.to_thread(self._seats.is_of, room.seat, user):
-            text = "This world gave an address that is not on its student's server.\n"
-            return PlainTextResponse(text, 403, NO_STORE)
+            text = _("This world gave an address that is not on its student's server.")
+            return TextResponse(text, 403, NO_STORE)
         return RedirectResponse(f"{self._hub.hub_url}{room.state.page}", 303, NO_STORE)
 
 
@@ -210,8 +212,8 @@ class _BehindHub:
             }
             await self._app(inner, receive, send)
         elif scope["type"] == "http":
-            text = f"expected a path below {self._prefix}/\n"
-            await PlainTextResponse(text, 404)(scope, receive, send)
+            text = _("expected a path below {prefix}/", prefix=self._prefix)
+            await TextResponse(text, 404)(scope, receive, send)
         else:
             await WebSocketClose()(scope, receive, send)
 

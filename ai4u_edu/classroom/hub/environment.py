@@ -7,6 +7,7 @@ from typing import Self
 from urllib.parse import urlsplit
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 
 DEFAULT_PORT = 10101
 _NEEDED = (
@@ -55,9 +56,13 @@ class HubEnvironment:
         missing = [name for name in _NEEDED if not variables.get(name)]
         if missing:
             raise SetupError(
-                f"--hub: expected a service of a JupyterHub, which sets {', '.join(_NEEDED)}; "
-                f"{', '.join(missing)} not set. Start it with c.JupyterHub.services; "
-                "docs/jupyterhub.md has the settings"
+                _(
+                    "--hub: expected a service of a JupyterHub, which sets {needed}; {missing} "
+                    "not set. Start it with c.JupyterHub.services; docs/jupyterhub.md has the "
+                    "settings",
+                    needed=", ".join(_NEEDED),
+                    missing=", ".join(missing),
+                )
             )
         prefix = f"{variables['JUPYTERHUB_SERVICE_PREFIX'].rstrip('/')}/"
         base = f"{variables['JUPYTERHUB_BASE_URL'].rstrip('/')}/"

@@ -12,21 +12,24 @@ from typing import Any
 from urllib.parse import urlencode
 
 from starlette.requests import HTTPConnection, Request
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.hub.api import HubApi, HubUnreachableError, HubUser, NoAccessError
 from ai4u_edu.classroom.hub.environment import HubEnvironment
 from ai4u_edu.classroom.join import NO_STORE
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.attempts import client_address
 from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.page.server.token_auth import is_same_secret
 from ai4u_edu.page.server.token_page import wants_page
 
 COOKIE = "ai4u-edu-hub"
 """Cookie with the browser's token of the hub; scripts in a page can't read it."""
 STATE_COOKIE = "ai4u-edu-hub-state"
-SIGN_IN = "expected somebody who has signed in at the hub; open the class's page"
+SIGN_IN = _("expected somebody who has signed in at the hub; open the class's page")
 STATE_LIFE_S = 600
 TOKEN_LIFE_S = 14 * 24 * 3600
 PAGES = ("", "teacher", "projector")
@@ -78,22 +81,31 @@ class SignIn:
         kept = _read_state(request.cookies.get(STATE_COOKIE, ""))
         given = request.query_params
         if kept is None or not is_same_secret(kept["state"], given.get("state", "")):
-            text = "This sign-in was begun in another window, or too long ago. Open the class again"
-            return PlainTextResponse(f"{text}: {self._hub.prefix}\n", 403, NO_STORE)
+            text = _(
+                "This sign-in was begun in another window, or too long ago. Open the class again: "
+                "{prefix}",
+                prefix=self._hub.prefix,
+            )
+            return TextResponse(text, 403, NO_STORE)
         if not given.get("code"):
-            why = given.get("error_description") or given.get("error") or "it gave no reason"
-            return PlainTextResponse(f"The hub did not sign you in: {why[:200]}\n", 403, NO_STORE)
+            why = given.get("error_description") or given.get("error") or _("it gave no reason")
+            return TextResponse(
+                _("The hub did not sign you in: {why}", why=why[:200]), 403, NO_STORE
+            )
         try:
             token = await self._api.token_for(given["code"], kept["verifier"])
             address = client_address(request.scope)
             user = await self._api.user_of(token, address) if token else None
         except HubUnreachableError as error:
-            return PlainTextResponse(f"{error}\n", 503, NO_STORE)
+            return TextResponse(text_of(error), 503, NO_STORE)
         except NoAccessError as error:
-            return PlainTextResponse(f"{error}\n", 403, NO_STORE)
+            return TextResponse(text_of(error), 403, NO_STORE)
         if user is None:
-            text = f"The hub does not know this sign-in. Open the class again: {self._hub.prefix}"
-            return PlainTextResponse(f"{text}\n", 403, NO_STORE)
+            text = _(
+                "The hub does not know this sign-in. Open the class again: {prefix}",
+                prefix=self._hub.prefix,
+            )
+            return TextResponse(text, 403, NO_STORE)
         response = RedirectResponse(f"{self._hub.prefix}{kept['page']}", 303, NO_STORE)
         self._set(response, request, COOKIE, token, TOKEN_LIFE_S)
         response.delete_cookie(STATE_COOKIE, path=self._hub.prefix)
@@ -136,10 +148,10 @@ class TeacherAuth:
         try:
             user = await self._sign_in.user_of(given)
         except HubUnreachableError as error:
-            await _refuse(str(error), 503, scope, receive, send)
+            await _refuse(text_of(error), 503, scope, receive, send)
             return
         except NoAccessError as error:
-            await _refuse(str(error), 403, scope, receive, send)
+            await _refuse(text_of(error), 403, scope, receive, send)
             return
         if user is None:
             if scope["type"] == "http" and scope["method"] == "GET" and wants_page(given):
@@ -150,7 +162,10 @@ class TeacherAuth:
             await self._app(scope, receive, send)
         else:
             groups = ", ".join(self._groups)
-            text = f"This page is for teachers: admins of the hub, and its group {groups}."
+            text = _(
+                "This page is for teachers: admins of the hub, and its group {groups}.",
+                groups=groups,
+            )
             await _refuse(text, 403, scope, receive, send)
 
 
@@ -175,5 +190,5 @@ async def _refuse(text: str, status: int, scope: Scope, receive: Receive, send: 
         code = TRY_LATER if status == 503 else NOT_ALLOWED
         await refuse_socket(scope, receive, send, code, text)
         return
-    response: Response = PlainTextResponse(f"{text}\n", status, NO_STORE)
+    response: Response = TextResponse(text, status, NO_STORE)
     await response(scope, receive, send)

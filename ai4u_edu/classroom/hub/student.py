@@ -6,7 +6,7 @@ import re
 import secrets
 
 from starlette.requests import Request
-from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
+from starlette.responses import JSONResponse, RedirectResponse, Response
 
 from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.errors import JoinError, StoreError
@@ -19,6 +19,7 @@ from ai4u_edu.classroom.live_rooms import LiveRoom, remote_id
 from ai4u_edu.classroom.seats import Seats
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.page.server.limits.attempts import client_address
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.page.server.standalone import standalone_page
 
 _TOKEN = re.compile(r"(?:token|bearer)\s+(\S+)", re.IGNORECASE)
@@ -94,9 +95,9 @@ class HubStudent:
             user = await self._sign_in.user_of(request)
         except HubUnreachableError as error:
             headers = {"Retry-After": "2", "Refresh": "2", **NO_STORE}
-            return PlainTextResponse(f"{error}\n", 503, headers)
+            return TextResponse(text_of(error), 503, headers)
         except NoAccessError as error:
-            return PlainTextResponse(f"{error}\n", 403, NO_STORE)
+            return TextResponse(text_of(error), 403, NO_STORE)
         if user is None:
             return self._sign_in.begin(request)
         if is_teacher(user, self._teachers):

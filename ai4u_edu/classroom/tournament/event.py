@@ -7,6 +7,7 @@ from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.classroom.tournament.network_check import missing_extras
 from ai4u_edu.classroom.tournament.networks import NetworkRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
+from ai4u_edu.locale import library_text, unpacked
 
 NEUTRAL = "#808080"
 """Colour of an entry that is of no seat."""
@@ -33,7 +34,7 @@ def tournament_event(
     event: Event = {
         "id": row.id,
         "scene": row.scene,
-        "title": row.title,
+        "title": library_text(row.title),
         "phase": row.phase,
         "players": sum(each.number in players and each.state == "in" for each in seats),
         "results": None,
@@ -61,7 +62,7 @@ def network_facts(row: NetworkRow) -> Event:
         "part": row.part,
         "file": row.file,
         "verdict": row.verdict,
-        "reason": row.reason,
+        "reason": unpacked(row.reason),
     }
 
 

@@ -13,6 +13,8 @@ from ai4u_edu.games.jobs import Job
 from ai4u_edu.games.jobs.isolated import IsolatedJobs
 from ai4u_edu.games.tournament.game_page import game_page
 from ai4u_edu.games.tournament.run import GAMES, PAGE
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.page.server.page import FRAME_ANCESTORS
 
 MAX_PAGE_CPU_S = 30.0
@@ -61,14 +63,14 @@ class TournamentFiles:
             Route("/projector/game/{number:int}", self.projected, middleware=[auth]),
         ]
 
-    async def report(self, _: Request) -> Response:
+    async def report(self, _request: Request) -> Response:
         """Return the report, which is there when a tournament is over."""
         row = self._runner.tournaments.now
         if row is not None:
             path = self._runner.tournaments.folder_of(row) / PAGE
             if path.is_file():
                 return HTMLResponse(await asyncio.to_thread(path.read_bytes), headers=HEADERS)
-        raise HTTPException(404, "There is no report: no tournament is over.")
+        raise HTTPException(404, translate(_("There is no report: no tournament is over.")))
 
     async def game(self, request: Request) -> Response:
         """Return the page that plays a recorded game."""
@@ -85,17 +87,24 @@ class TournamentFiles:
             games = self._runner.tournaments.folder_of(row) / GAMES
             found = sorted(games.glob(f"{number:04}-*.episode"))
         if not found:
-            raise HTTPException(404, f"There is no recording of game {number}.")
+            raise HTTPException(
+                404, translate(_("There is no recording of game {number}.", number=number))
+            )
         self._open += 1
         try:
             path = str(found[0].absolute())
             answer = await self._pages.run(Job.of(game_page, path=path, is_projected=is_projected))
         except OSError as error:
-            raise HTTPException(503, f"This recording can't be shown now: {error}.") from None
+            raise HTTPException(
+                503,
+                translate(_("This recording can't be shown now: {problem}.", problem=str(error))),
+            ) from None
         finally:
             self._open -= 1
             if self._open == 0:
                 await self._pages.end()
         if answer.error:
-            raise HTTPException(500, f"This recording can't be shown: {answer.error}")
+            raise HTTPException(
+                500, translate(_("This recording can't be shown: {problem}", problem=answer.error))
+            )
         return HTMLResponse(answer.result, headers=HEADERS)

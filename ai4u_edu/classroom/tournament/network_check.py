@@ -9,7 +9,7 @@ from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.base.errors import AI4UError, SetupError, text_of
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks.brains.controllers.neural import TRAINED_IN
 from ai4u_edu.classroom.tournament.network_scene import network_scenes
@@ -21,6 +21,8 @@ from ai4u_edu.games.tournament.drivers import load_network
 from ai4u_edu.games.tournament.entry import Driver
 from ai4u_edu.games.tournament.limits import LOAD_CPU_S, OverTimeError, is_over_time, over_load_time
 from ai4u_edu.games.tournament.plan import CHECK_SEED
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text
 
 MAX_CHECK_CPU_S = 30.0
 """Processor time in which a network has to be loaded and to play a game against itself: the
@@ -38,7 +40,7 @@ def missing_extras() -> str:
     try:
         need("tournament", "openskill")
     except SetupError as error:
-        return f"Tournaments: {error}. Then start the class again."
+        return _("Tournaments: {problem}. Then start the class again.", problem=text_of(error))
     return ""
 
 
@@ -117,7 +119,7 @@ class NetworkCheck:
         try:
             driver = await asyncio.to_thread(driver_of, self._networks, row)
         except OSError:
-            return "The file is not there any more. Hand it in again."
+            return _("The file is not there any more. Hand it in again.")
         answer = await process.run(Job.of(load, driver=driver), 1.2 * LOAD_CPU_S)
         if is_over_time(answer.error):
             return over_load_time()
@@ -125,7 +127,9 @@ class NetworkCheck:
         reason = answer.error or str(answer.result["reason"])
         reason = re.sub(re.escape(str(self._folder.absolute())) + "/?[0-9]?", "", reason)
         reason = _other_scene(row.scene, reason) or reason  # the path is the teacher's
-        return f"Its game could not be played: {reason}" if answer.error else reason
+        return (
+            _("Its game could not be played: {reason}", reason=reason) if answer.error else reason
+        )
 
     @staticmethod
     def _job(row: NetworkRow, driver: Driver) -> Job:
@@ -139,11 +143,13 @@ def _other_scene(scene: str, reason: str) -> str:
     found = re.search(f"{TRAINED_IN}'([^']+)'", reason)
     if found is None or found[1] == scene:
         return ""
-    titles = {name: each.title for name, each in network_scenes().items()}
+    titles = {name: library_text(each.title) for name, each in network_scenes().items()}
     title = titles.get(scene, scene)
-    return (
-        f"It was trained in “{titles.get(found[1], found[1])}”; this tournament is “{title}”. "
-        f"Hand in a network that was trained in “{title}”."
+    return _(
+        "It was trained in “{scene}”; this tournament is “{title}”. Hand in a network "
+        "that was trained in “{title}”.",
+        scene=titles.get(found[1], found[1]),
+        title=title,
     )
 
 

@@ -19,6 +19,7 @@ from ai4u_edu.classroom.errors import NetworkError, StoreError
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.classroom.tournament.network_scene import ALL, network_scenes
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text, packed, unpacked
 from ai4u_edu.wire.class_link import MAX_NETWORK_BYTES
 
 FOLDER = "networks"
@@ -121,8 +122,11 @@ class Networks:
             replaced = [each for each in self.rows if each.place == row.place]
             if not replaced and sum(each.seat == seat for each in self.rows) >= MAX_NETWORKS:
                 raise NetworkError(
-                    f"The class keeps at most {MAX_NETWORKS} networks of each student, and you "
-                    "have handed in that many."
+                    _(
+                        "The class keeps at most {most} networks of each student, and you have "
+                        "handed in that many.",
+                        most=MAX_NETWORKS,
+                    )
                 )
             gone = [each for each in replaced if each.verdict != "right"]
             self._write(row, data)
@@ -159,8 +163,8 @@ class Networks:
         Raises:
             StoreError: it can't be stored; then nothing has changed.
         """
-        reason = reason[:MAX_REASON_CHARS]
-        judged = replace(row, verdict="refused" if reason else "right", reason=reason)
+        stored = packed(reason, MAX_REASON_CHARS)[:MAX_REASON_CHARS]
+        judged = replace(row, verdict="refused" if reason else "right", reason=unpacked(stored))
         with self._lock:
             if row not in self.rows:
                 return
@@ -169,7 +173,7 @@ class Networks:
             with self._store.transaction() as database:
                 database.execute(
                     "update networks set verdict = ?, reason = ? where key = ?",
-                    [judged.verdict, reason, row.key],
+                    [judged.verdict, stored, row.key],
                 )
                 _delete(database, gone)
             kept = (each for each in self.rows if each not in gone)
@@ -200,7 +204,15 @@ class Networks:
             raise StoreError(text) from None
 
     def _insert(self, row: NetworkRow, gone: list[NetworkRow]) -> bool:
-        values = (row.key, *row.place, row.file, row.size, row.verdict, row.reason, row.request)
+        values = (
+            row.key,
+            *row.place,
+            row.file,
+            row.size,
+            row.verdict,
+            packed(row.reason),
+            row.request,
+        )
         with self._store.transaction() as database:
             if row.request:
                 # as with any result, a key that came is known for ever
@@ -247,7 +259,7 @@ def check_network(scene: str, part: str, file: str, size: int) -> None:
         raise NetworkError(
             _(
                 "part: {scene} has these parts: {parts}; got {part!r}.",
-                scene=known.title,
+                scene=library_text(known.title),
                 parts=", ".join(known.parts) or _("none"),
                 part=part[:60],
             )

@@ -303,9 +303,10 @@ class _PlayedTournament:
                 self._on_change()
         code = self._process.wait()
         if not self.is_over and not self.problem:
-            self.problem = (
-                f"The tournament's process has ended by itself (code {code}). Start it again: it "
-                "goes on where it was."
+            self.problem = _(
+                "The tournament's process has ended by itself (code {code}). Start it "
+                "again: it goes on where it was.",
+                code=code,
             )
         self.has_ended = True
         self._on_change()
@@ -377,8 +378,11 @@ def _plan(
         numbers[player.name] = 0
     if len(entries) < 2:
         raise CommandError(
-            f"A tournament needs two players at least, and {len(entries)} can play: wait until "
-            "more networks were handed in and checked, or let the scene's player take part."
+            _(
+                "A tournament needs two players at least, and {n} can play: wait until more "
+                "networks were handed in and checked, or let the scene's player take part.",
+                n=len(entries),
+            )
         )
     plan = TournamentPlan(
         scene={"name": scene},

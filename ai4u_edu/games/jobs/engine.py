@@ -6,6 +6,7 @@ from typing import Protocol, Self
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.games.jobs.call import JobAnswer, call
 from ai4u_edu.games.jobs.job import Job
+from ai4u_edu.locale import gettext as _
 
 NAMES = ("inline", "processes", "ray")
 
@@ -52,7 +53,7 @@ def engine(name: str = "processes", *, width: int | None = None, address: str = 
         SetupError: there is no such engine, or Ray is not installed.
     """
     if address and name != "ray":
-        raise SetupError(f"--address is for --engine ray, got --engine {name}")
+        raise SetupError(_("--address is for --engine ray, got --engine {name}", name=name))
     if name == "inline":
         return _InlineEngine()
     if name == "processes":
@@ -64,7 +65,12 @@ def engine(name: str = "processes", *, width: int | None = None, address: str = 
 
         return RayEngine(width, address)
     raise SetupError(
-        f"expected an engine of {', '.join(NAMES)}, got {name!r}; {suggest(name, NAMES)}"
+        _(
+            "expected an engine of {names}, got {name!r}; {hint}",
+            names=", ".join(NAMES),
+            name=name,
+            hint=suggest(name, NAMES),
+        )
     )
 
 
@@ -81,7 +87,7 @@ class _InlineEngine:
 
     def wait(self) -> tuple[Job, JobAnswer]:
         if self._job is None:
-            raise RuntimeError("no job runs")
+            raise RuntimeError(_("no job runs"))
         job, self._job = self._job, None
         return job, call(job)
 

@@ -15,6 +15,7 @@ from ai4u_edu.base.numeric_threads import children_with_one_thread
 from ai4u_edu.games.jobs.call import JobAnswer
 from ai4u_edu.games.jobs.job import Job
 from ai4u_edu.games.jobs.worker import serve_jobs
+from ai4u_edu.locale import gettext as _
 
 POLL_S = 0.1
 START_TIMEOUT_S = 300.0
@@ -92,15 +93,15 @@ class IsolatedJobs:
             while not running.connection.poll(POLL_S):
                 if _cpu_s(running.usage) - begin_cpu_s > max_cpu_s:
                     self.close()
-                    limit = f"{max_cpu_s:g} s of processor time"
-                    return JobAnswer(error=f"it took more than {limit}")
+                    limit = _("{most:g} s of processor time", most=max_cpu_s)
+                    return JobAnswer(error=_("it took more than {limit}", limit=limit))
                 if time.monotonic() > end_at:
                     self.close()
-                    return JobAnswer(error=f"it took more than {self._max_wall_s:g} s")
+                    return JobAnswer(error=_("it took more than {most:g} s", most=self._max_wall_s))
             answer: JobAnswer = running.connection.recv()
         except (EOFError, OSError, psutil.Error):
             self.close()
-            return JobAnswer(error="its process died: it may want more memory than there is")
+            return JobAnswer(error=_("its process died: it may want more memory than there is"))
         return answer
 
     def _start(self) -> _Process:
@@ -130,7 +131,9 @@ class IsolatedJobs:
             problem = str(error)
         ours.close()
         process.kill()
-        raise OSError(f"the process for jobs did not start: {problem or 'it took too long'}")
+        raise OSError(
+            _("the process for jobs did not start: {value}", value=problem or "it took too long")
+        )
 
 
 def ready() -> None:

@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Self
 
+from ai4u_edu.locale import gettext as _
+
 
 @dataclass(frozen=True)
 class Job:
@@ -36,13 +38,19 @@ class Job:
         name = f"{function.__module__}:{function.__qualname__}"
         job = cls(name, arguments)
         if "." in function.__qualname__ or function.__module__ == "__main__":
-            raise ValueError(f"expected a function that a module defines, got {name}")
+            raise ValueError(_("expected a function that a module defines, got {name}", name=name))
         try:
             is_plain = json.loads(json.dumps(arguments, allow_nan=False)) == arguments
         except (TypeError, ValueError):
             is_plain = False
         if not is_plain:
-            raise ValueError(f"{name}: expected arguments that JSON can hold, got {arguments!r}")
+            raise ValueError(
+                _(
+                    "{name}: expected arguments that JSON can hold, got {arguments}",
+                    name=name,
+                    arguments=repr(arguments),
+                )
+            )
         return job
 
     @cached_property

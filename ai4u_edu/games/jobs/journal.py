@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.games.jobs.job import Job, JobOutcome
+from ai4u_edu.locale import gettext as _
 
 FILE = "journal.jsonl"
 MAX_ARGUMENT_CHARS = 200
@@ -35,7 +36,9 @@ class Journal:
         try:
             self._lock = FileLock(folder / f"{FILE}.lock")
         except LockedError as error:
-            raise SetupError(f"{folder}: another process runs these jobs; end it first") from error
+            raise SetupError(
+                _("{folder}: another process runs these jobs; end it first", folder=str(folder))
+            ) from error
         try:
             self._done = self._read()
             self._file: BinaryIO = self.path.open("ab")
@@ -92,8 +95,14 @@ class Journal:
                 kept = read_line(line)
             except ValueError as error:
                 raise SetupError(
-                    f"{self.path}, line {number}: expected a finished job, got {line[:80]!r} "
-                    f"({error}); mend the line, or choose another folder"
+                    _(
+                        "{path}, line {number}: expected a finished job, got {line} ({problem}); "
+                        "mend the line, or choose another folder",
+                        path=str(self.path),
+                        number=number,
+                        line=repr(line[:80]),
+                        problem=str(error),
+                    )
                 ) from error
             if not kept["error"]:
                 done[kept["key"]] = kept
@@ -148,7 +157,7 @@ def read_line(line: bytes) -> dict[str, Any]:
         first = error.errors()[0]
         raise ValueError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
     except RecursionError:
-        raise ValueError("it is nested too deeply") from None
+        raise ValueError(_("it is nested too deeply")) from None
     return found
 
 

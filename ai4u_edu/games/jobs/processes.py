@@ -19,6 +19,7 @@ from ai4u_edu.base.numeric_threads import children_with_one_thread
 from ai4u_edu.games.jobs.call import JobAnswer
 from ai4u_edu.games.jobs.job import Job
 from ai4u_edu.games.jobs.worker import is_main_thread, serve_jobs
+from ai4u_edu.locale import gettext as _
 
 END_TIMEOUT_S = 2.0
 """Time in which a process that has closed its pipe ends by itself, and can tell how it ended."""
@@ -66,7 +67,7 @@ class ProcessEngine:
         if answer is None:
             self._workers.remove(worker)
             end = worker.end(END_TIMEOUT_S)
-            answer = JobAnswer(error=worker.problem or f"its process died ({end})")
+            answer = JobAnswer(error=worker.problem or _("its process died ({end})", end=end))
         return worker.job, answer
 
     def close(self) -> None:
@@ -125,7 +126,10 @@ class _Worker:
             self._stopped_at = now
             return
         if now - self._stopped_at > STOP_TIMEOUT_S:
-            self.problem = f"its process was stopped by another one for {STOP_TIMEOUT_S:g} s"
+            self.problem = _(
+                "its process was stopped by another one for {stop_timeout_s:g} s",
+                stop_timeout_s=STOP_TIMEOUT_S,
+            )
             process.kill()
         else:
             process.resume()
@@ -147,7 +151,7 @@ class _Worker:
         """
         self.pipe.close()
         if self._process.pid is None:  # Ctrl-C came before its start
-            return "not started"
+            return _("not started")
         self._process.join(timeout_s)
         code = self._process.exitcode
         self._process.kill()
@@ -157,8 +161,8 @@ class _Worker:
             self._process.close()
         if code is not None and code < 0:
             killed = signal.Signals(-code).name
-            return f"{killed}: out of memory?" if killed == "SIGKILL" else killed
-        return f"exit code {code}"
+            return _("{killed}: out of memory?", killed=killed) if killed == "SIGKILL" else killed
+        return _("exit code {code}", code=str(code))
 
 
 def core_count() -> int:

@@ -22,12 +22,15 @@ from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.games.jobs.call import JobAnswer, call
 from ai4u_edu.games.jobs.job import Job
+from ai4u_edu.locale import gettext as _
 
 JOBS_PER_CORE = 2
 """Jobs that Ray has for each core, so that none waits for the way there and back."""
 START_TIMEOUT_S = 300.0
 """Time in which Ray starts, or answers at an address; usually it gives up by itself before."""
-HINT = "Look whether the cluster is there; a busy machine may start Ray too slowly: then try again."
+HINT = _(
+    "Look whether the cluster is there; a busy machine may start Ray too slowly: then try again."
+)
 CONNECT_TIMEOUT_S = 10.0
 MAX_PORT = 65_535
 END_TIMEOUT_S = 15.0
@@ -118,19 +121,36 @@ class RayEngine:
         """Wait until Ray is ready, and return how many cores the cluster has."""
         try:
             if not self._pipe.poll(START_TIMEOUT_S):
-                raise SetupError(f"Ray on {self._where} did not answer for {START_TIMEOUT_S:g} s")
+                raise SetupError(
+                    _(
+                        "Ray on {where} did not answer for {start_timeout_s:g} s",
+                        where=self._where,
+                        start_timeout_s=START_TIMEOUT_S,
+                    )
+                )
             cores, problem = self._pipe.recv()
         except (EOFError, OSError):
             raise self._ended() from None
         if problem:
-            raise SetupError(f"expected Ray on {self._where}, got: {problem} {HINT}")
+            raise SetupError(
+                _(
+                    "expected Ray on {where}, got: {problem} {hint}",
+                    where=self._where,
+                    problem=problem,
+                    hint=HINT,
+                )
+            )
         return int(cores)
 
     def _ended(self) -> SetupError:
         self._process.join(END_TIMEOUT_S)
         return SetupError(
-            f"Ray on {self._where} has ended (exit code {self._process.exitcode}); start the "
-            "cluster again, and run the same command again"
+            _(
+                "Ray on {where} has ended (exit code {exitcode}); start the cluster again, "
+                "and run the same command again",
+                where=self._where,
+                exitcode=str(self._process.exitcode),
+            )
         )
 
 
@@ -142,13 +162,19 @@ def _check_address(address: str) -> None:
     """
     match = re.fullmatch(r"(?:ray://)?\[?([^\[\]/]+?)\]?:(\d{1,5})", address)
     if match is None or int(match[2]) > MAX_PORT:
-        raise SetupError(f"--address: expected one such as 192.0.2.7:6379, got {address!r}")
+        raise SetupError(
+            _("--address: expected one such as 192.0.2.7:6379, got {address!r}", address=address)
+        )
     try:
         socket.create_connection((match[1], int(match[2])), CONNECT_TIMEOUT_S).close()
     except (OSError, UnicodeError) as error:
         raise SetupError(
-            f"expected a Ray cluster at {address}, got: {error}; start one there with "
-            "`ray start --head --port=PORT`"
+            _(
+                "expected a Ray cluster at {address}, got: {problem}; start one there with "
+                "`ray start --head --port=PORT`",
+                address=address,
+                problem=str(error),
+            )
         ) from None
 
 
@@ -196,7 +222,7 @@ def _drive(pipe: Connection, address: str) -> None:
 def _connect(ray: Any, address: str) -> str:
     """Connect to Ray or start it, and return why that is impossible, or an empty text."""
     problem = ""
-    for _ in range(1 if address else START_TRIES):
+    for _number in range(1 if address else START_TRIES):
         try:
             ray.init(
                 address=address or "local",

@@ -29,6 +29,7 @@ from ai4u_edu.games.tournament.entry import Driver
 from ai4u_edu.games.tournament.limits import LOAD_CPU_S, OverTimeError, over_load_time
 from ai4u_edu.games.tournament.python_controller import PythonController
 from ai4u_edu.games.tournament.sides import Sides
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.scenes import Scene
@@ -99,8 +100,12 @@ def driver_for(drivers: Mapping[str, Driver], sides: Sides, agent_id: str) -> Dr
         if part in drivers:
             return drivers[part]
     raise BlockError(
-        f"it has no driver for agent {agent_id!r}; expected one of "
-        f"{', '.join(sides.parts_of(agent_id))} in NAME=PART:SPEC,PART:SPEC"
+        _(
+            "it has no driver for agent {agent_id!r}; expected one of {parts_of} in "
+            "NAME=PART:SPEC,PART:SPEC",
+            agent_id=agent_id,
+            parts_of=", ".join(sides.parts_of(agent_id)),
+        )
     )
 
 
@@ -198,7 +203,7 @@ def scripted(sim: ControlRequestor, sides: Sides, agent: BasicAgent) -> Made:
             if isinstance(controller, Controller) and not listens_to_keys(type(controller)):
                 fresh = type(controller)(**controller.given())
                 return Made(fresh, brain.skip_frame, brain.repeat_action)
-    raise BlockError(f"the scene has no scripted controller for agent {agent.id!r}")
+    raise BlockError(_("the scene has no scripted controller for agent {id!r}", id=agent.id))
 
 
 def _answers(driver: Driver, agent: BasicAgent) -> RecordedAnswers:
@@ -212,7 +217,9 @@ def _answers(driver: Driver, agent: BasicAgent) -> RecordedAnswers:
         episode = decode(Episode, base64.b64decode(driver["data"]), "recording")
         actions = [each.action for each in episode.agent(agent.id)]
     if not actions:
-        raise BlockError(driver["reason"] or f"agent {agent.id!r} has no decision in its recording")
+        raise BlockError(
+            driver["reason"] or _("agent {id!r} has no decision in its recording", id=agent.id)
+        )
     controller = RecordedAnswers()
     controller.attach(actions, driver["reason"])
     return controller
@@ -223,7 +230,9 @@ def _recorded(driver: Driver, sides: Sides, agent: BasicAgent, own: Brain) -> Ma
     names = (agent.id, sides.counterpart(agent.id))
     record = next((each for name in names for each in episode.agents if each.id == name), None)
     if record is None or not len(record):
-        raise BlockError(f"{driver['file']}: it has no decision of agent {agent.id!r}")
+        raise BlockError(
+            _("{file}: it has no decision of agent {id!r}", file=driver["file"], id=agent.id)
+        )
     actions = [{name: list(numbers) for name, numbers in each.action.items()} for each in record]
     skip = int(record.skip[0])
     return Made(ReplayController(actions=actions, ending="repeat"), skip, own.repeat_action)

@@ -13,6 +13,7 @@ from ai4u_edu.blocks import Block, Controller
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import MAX_LOADED_NETWORK_BYTES, ZOO_PREFIX, find_network
 from ai4u_edu.games.tournament.sides import Sides
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.episode import MAX_RECORDING_BYTES
 from ai4u_edu.scenes.serialization import is_serializable
 
@@ -20,9 +21,10 @@ MAX_NAME_CHARS = 40
 MAX_KEPT_NAME_CHARS = 200
 """Limit in a tournament's file; in a class, names come from elsewhere."""
 MAX_SOURCE_BYTES = 200_000
-FORMS = (
-    "a network (FILE.onnx, zoo:SCENE), a controller's name, scene (the scene's own scripted "
-    "controllers), random, a recorded episode (FILE.episode), or a program (FILE.py, FILE.py:NAME)"
+FORMS = _(
+    "a network (FILE.onnx, zoo:SCENE), a controller's name, scene (the scene's "
+    "own scripted controllers), random, a recorded episode (FILE.episode), or a "
+    "program (FILE.py, FILE.py:NAME)"
 )
 
 Driver = dict[str, str]
@@ -54,7 +56,13 @@ class Entry(BaseModel):
         for each in drivers.values():
             kind = each.get("kind", "")
             if kind not in PARTS or each.keys() != {"kind", *PARTS[kind]}:
-                raise ValueError(f"expected a driver of {', '.join(PARTS)}, got {kind!r}")
+                raise ValueError(
+                    _(
+                        "expected a driver of {parts}, got {kind!r}",
+                        parts=", ".join(PARTS),
+                        kind=kind,
+                    )
+                )
         return drivers
 
     @property
@@ -87,8 +95,12 @@ def parse_entry(text: str, sides: Sides, *, scene: str = "", trust_python: bool 
     name = name.strip() or Path(next(iter(specs.values())).rpartition(".py:")[2] or "entry").stem
     if not re.fullmatch(r"[^\x00-\x1f\x7f]+", name) or len(name) > MAX_NAME_CHARS:
         raise SetupError(
-            f"expected an entry's name of at most {MAX_NAME_CHARS} printable characters, as in "
-            f"NAME=SPEC, got {name[:60]!r}"
+            _(
+                "expected an entry's name of at most {most} printable characters, as in "
+                "NAME=SPEC, got {name!r}",
+                most=MAX_NAME_CHARS,
+                name=name[:60],
+            )
         )
     return Entry(name=name, drivers=drivers)
 
@@ -122,14 +134,24 @@ def _driver(spec: str, scene: str, trust_python: bool) -> Driver:
     if file.endswith(".py"):
         if not trust_python:
             raise SetupError(
-                f"{file}: a Python file may do on this machine what you may; read it, then say "
-                "--trust-python to let it play (in a process of its own, with limits)"
+                _(
+                    "{file}: a Python file may do on this machine what you may; read it, then "
+                    "say --trust-python to let it play (in a process of its own, with limits)",
+                    file=file,
+                )
             )
         return file_driver("python", Path(file), MAX_SOURCE_BYTES) | {"name": name}
     known = {name: cls for name, cls in Block.types.items() if _is_driver(cls)}
     if spec in known:
         return {"kind": "controller", "type": spec}
-    raise SetupError(f"nobody is called {spec!r}: expected {FORMS}; {suggest(spec, known)}")
+    raise SetupError(
+        _(
+            "nobody is called {spec!r}: expected {forms}; {hint}",
+            spec=spec,
+            forms=FORMS,
+            hint=suggest(spec, known),
+        )
+    )
 
 
 def _is_driver(cls: type[Block]) -> bool:
@@ -156,7 +178,9 @@ def file_driver(kind: str, path: Path, limit: int) -> Driver:
         with path.open("rb") as file:
             data = file.read(limit + 1)
     except OSError as error:
-        raise SetupError(f"{path}: can't be read: {error.strerror}") from None
+        raise SetupError(
+            _("{path}: can't be read: {reason}", path=str(path), reason=error.strerror or "")
+        ) from None
     if len(data) > limit:
-        raise SetupError(f"{path}: expected at most {limit:,} bytes")
+        raise SetupError(_("{path}: expected at most {limit:,} bytes", path=str(path), limit=limit))
     return {"kind": kind, "file": path.name, "data": base64.b64encode(data).decode()}

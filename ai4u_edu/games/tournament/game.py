@@ -19,6 +19,7 @@ from ai4u_edu.blocks.block import Block
 from ai4u_edu.games.tournament.drivers import driver_for, make
 from ai4u_edu.games.tournament.limits import CpuMeter, OverTimeError, memory_limit
 from ai4u_edu.games.tournament.sides import Sides, sides_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.scenes import Scene
@@ -55,11 +56,13 @@ def result_fault(result: Any, sides: int) -> str:
     except ValidationError as error:
         return "; ".join(f"{each['loc']}: {each['msg']}" for each in error.errors())
     if len(told.episode) % 4:
-        return "a recording that is no base64"
+        return _("a recording that is no base64")
     if not len(told.points) == len(told.goal) == sides:
-        return f"points of {len(told.points)} sides, and the scene has {sides}"
+        return _("points of {n} sides, and the scene has {sides}", n=len(told.points), sides=sides)
     if not -1 <= told.forfeit < sides or (told.forfeit < 0) != (not told.reason):
-        return f"forfeit {told.forfeit} for the reason {told.reason!r}"
+        return _(
+            "forfeit {forfeit} for the reason {reason!r}", forfeit=told.forfeit, reason=told.reason
+        )
     return ""
 
 
@@ -143,7 +146,7 @@ def _played(
                 break
             sim.tick()
     except AI4UError as error:  # of the scene's own blocks: nobody's fault
-        raise AI4UError(f"the scene failed: {message_of(error)}") from error
+        raise AI4UError(_("the scene failed: {problem}", problem=message_of(error))) from error
     recorder.finish()
     return recorder.episodes[-1] if len(recorder.episodes) else None
 
@@ -228,7 +231,7 @@ class MatchBrain(Brain):
 
     def _accepted(self, name: str, numbers: Any) -> tuple[float, ...]:
         if name not in self._actuators:
-            raise AI4UError(f"it drives an actuator {name!r}, and there is none")
+            raise AI4UError(_("it drives an actuator {name!r}, and there is none", name=name))
         accepted: tuple[float, ...] = self._actuators[name].accept(numbers)
         return accepted
 

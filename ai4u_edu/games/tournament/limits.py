@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from ai4u_edu.locale import gettext as _
+
 if sys.platform != "win32":
     import resource
 
@@ -84,7 +86,12 @@ class OverTimeError(Exception):
 
 def over_time(used_s: float) -> str:
     """Return the sentence on a decision that took too long."""
-    return f"it took {used_s:.1f} {CPU_TIME} for a decision; expected at most {DECISION_CPU_S:g} s"
+    return _(
+        "it took {used_s:.1f} {cpu_time} for a decision; expected at most {decision_cpu_s:g} s",
+        used_s=used_s,
+        cpu_time=CPU_TIME,
+        decision_cpu_s=DECISION_CPU_S,
+    )
 
 
 def is_over_time(reason: str) -> bool:
@@ -94,12 +101,20 @@ def is_over_time(reason: str) -> bool:
 
 def over_load_time() -> str:
     """Return the sentence on a network that took too long to load."""
-    return f"it took more than {LOAD_CPU_S:g} {CPU_TIME} to load"
+    return _(
+        "it took more than {load_cpu_s:g} {cpu_time} to load",
+        load_cpu_s=LOAD_CPU_S,
+        cpu_time=CPU_TIME,
+    )
 
 
 def over_game_time() -> str:
     """Return the sentence on a game that took too long."""
-    return f"it took more than {GAME_CPU_S:g} {CPU_TIME} in one game"
+    return _(
+        "it took more than {game_cpu_s:g} {cpu_time} in one game",
+        game_cpu_s=GAME_CPU_S,
+        cpu_time=CPU_TIME,
+    )
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.sides import Sides, sides_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.scene_data import scene_from
 
 FILE = "tournament.json"
@@ -35,7 +36,9 @@ class TournamentPlan(BaseModel):
     def _check_entries(self) -> "TournamentPlan":
         names = [each.name for each in self.entries]
         if len({*names}) < len(names):
-            raise ValueError(f"expected entries with different names, got {', '.join(names)}")
+            raise ValueError(
+                _("expected entries with different names, got {names}", names=", ".join(names))
+            )
         return self
 
     @property
@@ -82,11 +85,20 @@ class TournamentPlan(BaseModel):
             return cls.model_validate_json(path.read_bytes())
         except OSError:
             raise SetupError(
-                f"{folder} holds no tournament; begin one with: ai4u-edu tournament SCENE ENTRY "
-                f"ENTRY --out {folder}"
+                _(
+                    "{folder} holds no tournament; begin one with: ai4u-edu tournament SCENE "
+                    "ENTRY ENTRY --out {folder}",
+                    folder=str(folder),
+                )
             ) from None
         except ValidationError as error:
-            raise SetupError(f"{path}: not as a tournament writes it: {error}") from None
+            raise SetupError(
+                _(
+                    "{path}: not as a tournament writes it: {problem}",
+                    path=str(path),
+                    problem=str(error),
+                )
+            ) from None
 
     def difference(self, other: "TournamentPlan") -> str:
         """Return the name of a part that differs; empty if both are equal."""

@@ -24,6 +24,7 @@ from typing import Any, NoReturn
 import psutil
 
 from ai4u_edu.base.process_family import adopt_orphans, end_with_parent, kill_descendants
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.program import Program, ProgramError
 
 MEMORY_BYTES = 2**30
@@ -124,7 +125,7 @@ def serve(cpu_s: int) -> None:
                 program = _loaded(message)
                 answer = {"answer": None}
             elif program is None:
-                answer = {"error": "no program was loaded"}
+                answer = {"error": _("no program was loaded")}
             elif "begin" in message:
                 program.begin()
                 answer = {"answer": None}
@@ -135,7 +136,7 @@ def serve(cpu_s: int) -> None:
             file = "" if program is None else program.file
             answer = {"error": f"{file}{where}: {error.text}".removeprefix(", ").removeprefix(": ")}
         except MemoryError:
-            answer = {"error": "it needs more memory than a program may have"}
+            answer = {"error": _("it needs more memory than a program may have")}
         except (Exception, SystemExit) as error:  # the program's
             answer = {"error": f"{type(error).__name__}: {error}"[:500]}
         with suppress(BrokenPipeError):  # the other process has ended, and so does the input

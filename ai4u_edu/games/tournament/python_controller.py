@@ -21,6 +21,7 @@ from ai4u_edu.blocks import Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Action
 from ai4u_edu.games.tournament.limits import CHECK_INTERVAL_S, DECISION_CPU_S, GAME_CPU_S, over_time
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
 
 START_CPU_S = 20.0
@@ -83,10 +84,10 @@ class PythonController(Controller):
             BlockError: a mistake in the program, or it took too long.
         """
         if self._child is None:
-            raise BlockError("the program was not started")
+            raise BlockError(_("the program was not started"))
         answer = self._child.ask({"percept": _plain(percept)}, DECISION_CPU_S)
         if not isinstance(answer, dict):
-            raise BlockError("expected numbers by the actuator's name")
+            raise BlockError(_("expected numbers by the actuator's name"))
         return answer
 
     def close(self) -> None:
@@ -122,7 +123,7 @@ class _Child:
             self._program = psutil.Process(json.loads(self._line(START_CPU_S, 0.0))["pid"])
         except (BlockError, ValueError, psutil.Error):
             self.close()
-            raise BlockError("the program's process did not start") from None
+            raise BlockError(_("the program's process did not start")) from None
 
     def ask(self, message: dict[str, Any], limit_s: float) -> Any:
         """Send a message and return the answer; a processor time of ``limit_s`` is allowed."""
@@ -139,7 +140,7 @@ class _Child:
                 raise BlockError(str(answer["error"]))
             return answer["answer"]
         except (ValueError, TypeError, KeyError, RecursionError):
-            raise BlockError("expected an answer of the program, got other data") from None
+            raise BlockError(_("expected an answer of the program, got other data")) from None
 
     def _line(self, limit_s: float, before_s: float) -> bytes:
         """Return the next line of the process.
@@ -160,10 +161,15 @@ class _Child:
                 raise BlockError(over_time(used))
             if line is None and time.monotonic() - since > SILENCE_LIMIT_S:
                 self.close()
-                raise BlockError(f"the program did not answer for {SILENCE_LIMIT_S:g} s")
+                raise BlockError(
+                    _(
+                        "the program did not answer for {silence_limit_s:g} s",
+                        silence_limit_s=SILENCE_LIMIT_S,
+                    )
+                )
         if len(line) > MAX_ANSWER_BYTES:
             self.close()
-            raise BlockError(f"expected an answer of at most {MAX_ANSWER_BYTES} bytes")
+            raise BlockError(_("expected an answer of at most {most} bytes", most=MAX_ANSWER_BYTES))
         return line
 
     def close(self) -> None:
@@ -206,10 +212,10 @@ class _Child:
             code = self._process.wait(END_TIMEOUT_S)
         except subprocess.TimeoutExpired:
             self.close()
-            return "the program's process has closed its output"
+            return _("the program's process has closed its output")
         if code < 0:
-            return f"the program's process was ended by {signal.Signals(-code).name}"
-        return f"the program's process ended (exit status {code})"
+            return _("the program's process was ended by {name}", name=signal.Signals(-code).name)
+        return _("the program's process ended (exit status {code})", code=code)
 
 
 def _plain(percept: Percept) -> dict[str, Any]:

@@ -30,6 +30,7 @@ from ai4u_edu.games.tournament.plan import CHECK_SEED, TournamentPlan
 from ai4u_edu.games.tournament.plan import FILE as PLAN
 from ai4u_edu.games.tournament.standings import Standing
 from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.locale import gettext as _
 
 GAMES = "games"
 LIST = "games.json"
@@ -71,7 +72,13 @@ def run_tournament(
             for outcome in run_jobs(jobs, engine, journal=kept):
                 fault = "" if outcome.error else result_fault(outcome.result, sides)
                 if fault:
-                    raise SetupError(f"{kept.path}: expected results of games, got: {fault}")
+                    raise SetupError(
+                        _(
+                            "{path}: expected results of games, got: {fault}",
+                            path=str(kept.path),
+                            fault=fault,
+                        )
+                    )
                 tell(outcome)
                 yield outcome
 
@@ -171,7 +178,7 @@ def _check(done: Tournament, play: Play) -> None:
             done.refused[name] = reason
     if len(done.admitted) < 2:
         told = "; ".join(f"{name}: {reason}" for name, reason in done.refused.items())
-        raise SetupError(f"expected two entries that can play at least; {told}")
+        raise SetupError(_("expected two entries that can play at least; {told}", told=told))
 
 
 def _play_round(

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 
@@ -57,7 +58,11 @@ def sides_of(scene: Scene) -> Sides:
         found.setdefault(name.partition("_")[0], []).append(name)
     if len(found) > 2:
         raise SetupError(
-            f"{scene.description.name}: expected one side or two, got {', '.join(found)}; agents "
-            "of one side have ids that begin with the same word before _, such as blue_keeper"
+            _(
+                "{name}: expected one side or two, got {found}; agents of one side have ids "
+                "that begin with the same word before _, such as blue_keeper",
+                name=scene.description.name,
+                found=", ".join(found),
+            )
         )
     return Sides(tuple(found), tuple(map(tuple, found.values())))

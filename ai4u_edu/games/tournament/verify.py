@@ -18,6 +18,7 @@ from ai4u_edu.games.tournament.limits import is_over_time
 from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, files_of, play_all, sums_of
 from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
 
@@ -51,8 +52,12 @@ def verify(
     plan = TournamentPlan.load(folder)
     if not (folder / LIST).is_file():
         raise SetupError(
-            f"{folder}: expected a finished tournament, and there is no {LIST}; go on with it: "
-            f"ai4u-edu tournament --resume --out {folder}"
+            _(
+                "{folder}: expected a finished tournament, and there is no {list}; go on "
+                "with it: ai4u-edu tournament --resume --out {folder}",
+                folder=str(folder),
+                list=LIST,
+            )
         )
     return _Verification(plan, folder, engine, tell).run()
 
@@ -83,15 +88,24 @@ class _Verification:
         self._compare_journal()
         for name in sorted(expected.keys() - compared):
             if name not in self._there:
-                self._problems.append(f"{name}: it is missing")
+                self._problems.append(_("{name}: it is missing", name=name))
             elif self._there[name] != expected[name]:
-                self._problems.append(f"{name}: it is another one than the plan and its games give")
+                self._problems.append(
+                    _("{name}: it is another one than the plan and its games give", name=name)
+                )
         for name in sorted(self._there.keys() - expected.keys()):
-            self._problems.append(f"{name}: it is no file of this tournament")
+            self._problems.append(_("{name}: it is no file of this tournament", name=name))
         for contest in done.results:
             if contest.error:
                 names, seed = " vs ".join(contest.contest.names), contest.contest.seed
-                self._problems.append(f"a game ({names}, seed {seed}): {contest.error}")
+                self._problems.append(
+                    _(
+                        "a game ({names}, seed {seed}): {problem}",
+                        names=names,
+                        seed=seed,
+                        problem=contest.error,
+                    )
+                )
         return len(done.games), self._problems
 
     # -- what the folder says ----------------------------------------------------------------------
@@ -103,12 +117,14 @@ class _Verification:
             if entry.is_dir(follow_symlinks=False) and name == GAMES:
                 yield from self._read(folder / GAMES, f"{GAMES}/")
             elif not entry.is_file(follow_symlinks=False):
-                self._problems.append(f"{name}: expected a file of the tournament")
+                self._problems.append(_("{name}: expected a file of the tournament", name=name))
             else:
                 try:
                     yield name, Path(entry.path).read_bytes()
                 except OSError as error:
-                    self._problems.append(f"{name}: can't be read: {error.strerror}")
+                    self._problems.append(
+                        _("{name}: can't be read: {reason}", name=name, reason=error.strerror or "")
+                    )
 
     def _journal(self) -> list[Any]:
         """Return the lines of the journal."""
@@ -117,7 +133,14 @@ class _Verification:
             try:
                 lines.append(read_line(line))
             except ValueError as error:
-                self._problems.append(f"{JOURNAL}, line {number}: expected a job, got: {error}")
+                self._problems.append(
+                    _(
+                        "{journal}, line {number}: expected a job, got: {problem}",
+                        journal=JOURNAL,
+                        number=number,
+                        problem=str(error),
+                    )
+                )
         return lines
 
     def _claimed(self) -> dict[str, dict[str, Any]]:
@@ -165,7 +188,11 @@ class _Verification:
         for job in {job.key: job for job in jobs}.values():
             again = self._again(job, sides.get(job.key, -1))
             if again is None:
-                yield self._ended(JobOutcome(job, error=f"{JOURNAL} has no result of this game"))
+                yield self._ended(
+                    JobOutcome(
+                        job, error=_("{journal} has no result of this game", journal=JOURNAL)
+                    )
+                )
                 continue
             originals.setdefault(again.key, []).append(job)
             playing.append(again)
@@ -213,7 +240,12 @@ class _Verification:
         data = dict(each for place in done.files for each in done.recordings(place))
         if len(listed) != len(games):
             self._problems.append(
-                f"{LIST}: it has {len(listed)} games, and the plan has {len(games)}"
+                _(
+                    "{list}: it has {n} games, and the plan has {n2}",
+                    list=LIST,
+                    n=len(listed),
+                    n2=len(games),
+                )
             )
         before = len(self._problems)
         for number, now in enumerate(games):
@@ -222,7 +254,15 @@ class _Verification:
             if why:
                 self._wrong.add(now["job"])
                 names = " vs ".join(now["entries"])
-                self._problems.append(f"game {number + 1} ({names}, seed {now['seed']}): {why}")
+                self._problems.append(
+                    _(
+                        "game {number} ({names}, seed {seed}): {why}",
+                        number=number + 1,
+                        names=names,
+                        seed=now["seed"],
+                        why=why,
+                    )
+                )
         is_told = len(listed) != len(games) or len(self._problems) > before
         return {f"{GAMES}/{name}" for name in data} | ({LIST} if is_told else set[str]())
 
@@ -232,7 +272,7 @@ class _Verification:
             return ""
         data = self._there.get(f"{GAMES}/{file}")
         if data is None:
-            return f"{file} is missing"
+            return _("{file} is missing", file=file)
         if data == expected[file]:
             return ""
         try:
@@ -245,15 +285,15 @@ class _Verification:
         """Compare the journal line by line, but for what is measured."""
         if JOURNAL not in self._there:
             return
-        seen = set[str]()
+        seen, why = set[str](), ""
         for number, line in enumerate(self._lines, 1):
             outcome = self._outcomes.get(line["key"])
             if outcome is None:
-                why = "it is no game of this tournament"
+                why = _("it is no game of this tournament")
             elif line["error"] or line["key"] in self._wrong:
                 why = ""
             elif line["key"] in seen:
-                why = "this game has a result already"
+                why = _("this game has a result already")
             else:
                 why = _difference(line, line_of(outcome), ("function", "arguments", "result"))
             if why:
@@ -262,7 +302,9 @@ class _Verification:
                 seen.add(line["key"])
         missing = [each for each in self._outcomes.values() if each.job.key not in seen]
         if missing:
-            self._problems.append(f"{JOURNAL}: {len(missing)} games have no result")
+            self._problems.append(
+                _("{journal}: {n} games have no result", journal=JOURNAL, n=len(missing))
+            )
 
 
 def _difference(
@@ -273,5 +315,10 @@ def _difference(
         if told.get(name) != now[name]:
             values = told.get(name), now[name]
             then, here = (shorten(repr(each), MAX_VALUE_CHARS) for each in values)
-            return f"{name}: the folder says {then}, and now it is {here}"
+            return _(
+                "{name}: the folder says {then}, and now it is {here}",
+                name=name,
+                then=then,
+                here=here,
+            )
     return ""

@@ -13,6 +13,7 @@ from ai4u_edu.blocks.sensors.linear_ray_casting import LinearRayCastingSensor
 from ai4u_edu.blocks.sensors.orientation import OrientationSensor
 from ai4u_edu.blocks.sensors.ray_casting import RayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import RaySensor
+from ai4u_edu.locale import gettext as _
 
 
 class Label(NamedTuple):
@@ -68,7 +69,11 @@ def indices(shape: tuple[int, ...]) -> list[str]:
 def _age(decisions: int) -> str:
     if decisions == 0:
         return "now"
-    return "1 decision ago" if decisions == 1 else f"{decisions} decisions ago"
+    return (
+        _("1 decision ago")
+        if decisions == 1
+        else _("{decisions} decisions ago", decisions=decisions)
+    )
 
 
 def _labels_of_one(sensor: Sensor) -> list[Label]:
@@ -113,4 +118,7 @@ def _ray_labels(sensor: RaySensor) -> Iterator[Label]:
             yield Label(f"{part.name}, ray {ray}", part.unit)
     elif isinstance(sensor, RayCastingSensor):
         for plane, row, column in product(parts, range(sensor.rows), range(sensor.columns)):
-            yield Label(f"{plane.name}, row {row}, column {column}", plane.unit)
+            yield Label(
+                _("{name}, row {row}, column {column}", name=plane.name, row=row, column=column),
+                plane.unit,
+            )

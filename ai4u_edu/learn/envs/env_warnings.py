@@ -9,6 +9,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.blocks import Actuator
 from ai4u_edu.learn.envs.element_names import labels_of_action
 from ai4u_edu.learn.envs.spaces_of import outputs_of
+from ai4u_edu.locale import gettext as _
 
 
 def warn_of_default_agent(scene: str, ids: Sequence[str]) -> None:
@@ -20,9 +21,15 @@ def warn_of_default_agent(scene: str, ids: Sequence[str]) -> None:
     """
     logger.warn(
         "%s",
-        f"scene {scene!r} has several agents ({', '.join(ids)}), and this environment controls "
-        f"{ids[0]!r}, the one that acts first; choose with agent={ids[-1]!r}, or control all of "
-        f"them with ai4u_edu.learn.envs.parallel_env({scene!r})",
+        _(
+            "scene {scene!r} has several agents ({ids}), and this environment controls "
+            "{ids2!r}, the one that acts first; choose with agent={ids3!r}, or control "
+            "all of them with ai4u_edu.learn.envs.parallel_env({scene!r})",
+            scene=scene,
+            ids=", ".join(ids),
+            ids2=ids[0],
+            ids3=ids[-1],
+        ),
     )
 
 
@@ -48,8 +55,16 @@ class RangeWarning:
             if value != cut:
                 logger.warn(
                     "%s",
-                    f"action {actuator.action_name!r}: expected {name} from {low:g} to {high:g}, "
-                    f"got {value:g}, which was clipped to {cut:g}; further actions out of range "
-                    "are clipped without a warning",
+                    _(
+                        "action {action_name!r}: expected {name} from {low:g} to {high:g}, got "
+                        "{value:g}, which was clipped to {cut:g}; further actions out of range are "
+                        "clipped without a warning",
+                        action_name=actuator.action_name,
+                        name=name,
+                        low=low,
+                        high=high,
+                        value=value,
+                        cut=cut,
+                    ),
                 )
                 return

@@ -15,6 +15,7 @@ from ai4u_edu.learn.envs.description import EnvDescription, describe_agent
 from ai4u_edu.learn.envs.env_warnings import RangeWarning, warn_of_default_agent
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, options_space_of, outputs_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
@@ -67,7 +68,11 @@ class SceneEnv(gymnasium.Env[Any, Any]):
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise SetupError(
-                f"render_mode: expected one of {self.metadata['render_modes']}, got {render_mode!r}"
+                _(
+                    "render_mode: expected one of {render_modes}, got {render_mode}",
+                    render_modes=self.metadata["render_modes"],
+                    render_mode=repr(render_mode),
+                )
             )
         self.scene = load_scene(scene)
         self.sim: ControlRequestor = self.scene.build()
@@ -93,7 +98,7 @@ class SceneEnv(gymnasium.Env[Any, Any]):
         self._page: LivePage | None = None
         if render_mode == "human":
             make: Callable[[ControlRequestor, str], LivePage] = load_option(
-                ENV_PAGE, 'render_mode="human" (but not "rgb_array")'
+                ENV_PAGE, _('render_mode="human" (but not "rgb_array")')
             ).EnvPage
             self._page = make(self.sim, self.scene.description.title)
         self._share_chance()

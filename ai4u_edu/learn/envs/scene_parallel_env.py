@@ -13,6 +13,7 @@ from ai4u_edu.learn.envs.env_warnings import RangeWarning
 from ai4u_edu.learn.envs.external_brain import take_over
 from ai4u_edu.learn.envs.scene_env import SceneLike, load_scene
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, options_space_of, outputs_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.snapshot.raster import draw_snapshot
 
@@ -55,7 +56,11 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise SetupError(
-                f"render_mode: expected one of {self.metadata['render_modes']}, got {render_mode!r}"
+                _(
+                    "render_mode: expected one of {render_modes}, got {render_mode}",
+                    render_modes=self.metadata["render_modes"],
+                    render_mode=repr(render_mode),
+                )
             )
         self.scene = load_scene(scene)
         self.sim = self.scene.build()
@@ -167,14 +172,24 @@ class SceneParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has no 
 
     def _hand_out(self, actions: dict[str, Any]) -> None:
         if not self.agents:
-            raise SetupError("no agent takes part; expected a reset() first")
+            raise SetupError(_("no agent takes part; expected a reset() first"))
         for name in actions:
             if name not in self._agents:
-                raise ActionError(f"no agent has the id {name!r}; {suggest(name, self._agents)}")
+                raise ActionError(
+                    _(
+                        "no agent has the id {name!r}; {hint}",
+                        name=name,
+                        hint=suggest(name, self._agents),
+                    )
+                )
         for name in self.agents:
             if name not in actions:
                 raise ActionError(
-                    f"expected an action for each of {self.agents}, got none for {name!r}"
+                    _(
+                        "expected an action for each of {agents}, got none for {name!r}",
+                        agents=str(self.agents),
+                        name=name,
+                    )
                 )
             outputs, action = self._outputs[name], actions[name]
             self._brains[name].action = {outputs[0]: action} if len(outputs) == 1 else action

@@ -11,6 +11,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import checked_seed, seeds_from
 from ai4u_edu.learn.envs.scene_env import SceneLike
 from ai4u_edu.learn.envs.worlds import Worlds
+from ai4u_edu.locale import gettext as _
 
 
 class SceneVectorEnv(VectorEnv[Any, Any, Any]):
@@ -113,8 +114,13 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
             is_for_each = isinstance(value, np.ndarray) and value.ndim > 0
             if is_for_each and len(value) != self.num_envs:
                 raise SetupError(
-                    f"options: {name}: expected an array with a row for each of {self.num_envs} "
-                    f"worlds, got {len(value)}; a list is one value for all of them"
+                    _(
+                        "options: {name}: expected an array with a row for each of {num_envs} "
+                        "worlds, got {n}; a list is one value for all of them",
+                        name=name,
+                        num_envs=self.num_envs,
+                        n=len(value),
+                    )
                 )
             found[name] = value[index] if is_for_each else value
         return found
@@ -125,6 +131,8 @@ class SceneVectorEnv(VectorEnv[Any, Any, Any]):
         if not isinstance(seed, list | tuple | np.ndarray):
             return list(seeds_from(seed, self.num_envs))
         if len(seed) != self.num_envs:
-            raise SetupError(f"seed: expected {self.num_envs} numbers, got {len(seed)}")
+            raise SetupError(
+                _("seed: expected {num_envs} numbers, got {n}", num_envs=self.num_envs, n=len(seed))
+            )
         # all of them before any world begins anew
         return [None if each is None else checked_seed(each) for each in seed]

@@ -12,6 +12,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.blocks import Actuator, Percept, Sensor
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import to_plain
 
@@ -34,13 +35,17 @@ class Observer:
     def __init__(self, agent: BasicAgent, form: str) -> None:
         if form not in FORMS:
             raise SetupError(
-                f"observation: expected one of {', '.join(FORMS)}, got {form!r}; "
-                f"{suggest(form, FORMS)}"
+                _(
+                    "observation: expected one of {forms}, got {form!r}; {hint}",
+                    forms=", ".join(FORMS),
+                    form=form,
+                    hint=suggest(form, FORMS),
+                )
             )
         sensors = [sensor for sensor in agent.bound_blocks.sensors if sensor.is_input]
         if not sensors:
             raise SetupError(
-                f"agent {agent.id!r} has no sensor that a policy could observe (is_input)"
+                _("agent {id!r} has no sensor that a policy could observe (is_input)", id=agent.id)
             )
         self.flat = form == "flat"
         self._keys = [sensor.perception_key for sensor in sensors]
@@ -176,7 +181,9 @@ def outputs_of(agent: BasicAgent) -> dict[str, Actuator]:
         if actuator.is_output
     }
     if not found:
-        raise SetupError(f"agent {agent.id!r} has no actuator for a policy to drive (is_output)")
+        raise SetupError(
+            _("agent {id!r} has no actuator for a policy to drive (is_output)", id=agent.id)
+        )
     return found
 
 
@@ -184,15 +191,24 @@ def _only_picture(agent: BasicAgent, each: dict[str, spaces.Space[Any]]) -> str:
     """Return the key of the one observed sensor, which has to be a picture."""
     if len(each) > 1:
         raise SetupError(
-            f"observation='image': expected one sensor that is observed, a picture; agent "
-            f"{agent.id!r} has {sorted(each)}; set is_input to False on the others, or take "
-            "observation='dict'"
+            _(
+                "observation='image': expected one sensor that is observed, a picture; "
+                "agent {id!r} has {each}; set is_input to False on the others, or take "
+                "observation='dict'",
+                id=agent.id,
+                each=str(sorted(each)),
+            )
         )
     ((key, space),) = each.items()
     if not isinstance(space, spaces.Box) or len(space.shape) != 3 or space.dtype != np.uint8:
         raise SetupError(
-            f"observation='image': expected a picture (height, width, channels) of whole numbers "
-            f"0..255, got {key!r}: {space}; a LocalGridSensor with normalized False gives one"
+            _(
+                "observation='image': expected a picture (height, width, channels) of whole "
+                "numbers 0..255, got {key!r}: {space}; a LocalGridSensor with normalized "
+                "False gives one",
+                key=key,
+                space=str(space),
+            )
         )
     return key
 
@@ -216,8 +232,12 @@ def _flattened(each: dict[str, spaces.Space[Any]]) -> spaces.Box:
             high.append(np.array([space.start + space.n - 1]))
         else:
             raise SetupError(
-                f"observation='flat': sensor {key!r} reads {space}, which is no number; "
-                "set its is_input to False, or use observation='dict'"
+                _(
+                    "observation='flat': sensor {key!r} reads {space}, which is no number; set "
+                    "its is_input to False, or use observation='dict'",
+                    key=key,
+                    space=str(space),
+                )
             )
     flat_low, flat_high = np.concatenate(low), np.concatenate(high)
     return spaces.Box(flat_low.astype(np.float32), flat_high.astype(np.float32))

@@ -9,6 +9,7 @@ from gymnasium.vector.utils import batch_space, create_empty_array, iterate
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.envs.scene_env import SceneEnv, SceneLike, load_scene
+from ai4u_edu.locale import gettext as _
 
 
 class Worlds:
@@ -34,7 +35,7 @@ class Worlds:
         self, count: int, scene: SceneLike, *, agents: Sequence[str] = (), **options: Any
     ) -> None:
         if count < 1:
-            raise SetupError(f"num_envs: expected at least 1, got {count}")
+            raise SetupError(_("num_envs: expected at least 1, got {count}", count=count))
         loaded = load_scene(scene)
         if agents:
             options["agent"] = agents[0]

@@ -23,6 +23,7 @@ from gymnasium import spaces
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.small.neural_network import Floats, Mlp, parameter_count
+from ai4u_edu.locale import gettext as _
 
 LAYERS = (64, 64)
 """Neurons of the hidden layers."""
@@ -152,12 +153,18 @@ def _output_count(space: spaces.Space[Any]) -> int:
         return int(space.n)
     if isinstance(space, spaces.Dict):
         raise SetupError(
-            f"expected an agent with one actuator to learn, got {sorted(space)}; set is_output to "
-            "False on the others"
+            _(
+                "expected an agent with one actuator to learn, got {space}; set is_output "
+                "to False on the others",
+                space=str(sorted(space)),
+            )
         )
     if not isinstance(space, spaces.Box) or not space.is_bounded():
         raise SetupError(
-            f"expected an agent with one actuator whose numbers have a range, got {space}"
+            _(
+                "expected an agent with one actuator whose numbers have a range, got {space}",
+                space=str(space),
+            )
         )
     return int(np.prod(space.shape))
 
@@ -193,7 +200,9 @@ def _usual_sizes(space: spaces.Space[Any]) -> tuple[Floats, Floats]:
     usually means that there is nothing to see.
     """
     if not isinstance(space, spaces.Box) or len(space.shape) != 1:
-        raise SetupError(f"expected a flat observation (observation='flat'), got {space}")
+        raise SetupError(
+            _("expected a flat observation (observation='flat'), got {space}", space=str(space))
+        )
     largest = np.maximum(np.abs(space.low), np.abs(space.high)).astype(np.float32)
     has_size = (largest > 0.0) & (largest < MAX_RANGE)
     return np.zeros_like(largest), np.where(has_size, largest, 1.0).astype(np.float32)

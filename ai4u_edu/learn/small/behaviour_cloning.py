@@ -46,6 +46,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.learn.small.actor_critic import LAYERS, ActorCritic
 from ai4u_edu.learn.small.neural_network import Adam, Floats
+from ai4u_edu.locale import gettext as _
 
 Array = npt.NDArray[Any]
 
@@ -90,21 +91,21 @@ MIN_TWINS = 20
 CONTRADICTION_SHARE = 0.35
 """Share of twins with unlike actions from which drives are said to contradict each other."""
 
-ONE_DRIVE = (
+ONE_DRIVE = _(
     "This is one drive only: the robot knows one way from one start. Drive again from other starts."
 )
-STOOD_STILL = (
+STOOD_STILL = _(
     "In these drives the robot hardly moved, so it has learned to stand still. "
     "Drive again, and move."
 )
-ONE_CHOICE = (
-    "In these drives the robot always did the same, so it has learned nothing else. "
-    "Drive again, and do all that it should be able to."
+ONE_CHOICE = _(
+    "In these drives the robot always did the same, so it has learned nothing "
+    "else. Drive again, and do all that it should be able to."
 )
-CONTRADICTION = (
-    "These drives contradict each other: where the robot sensed the same, it was driven in "
-    "different ways. Leave out the drives in which you tried something, or give the robot "
-    "another sensor."
+CONTRADICTION = _(
+    "These drives contradict each other: where the robot sensed the same, it "
+    "was driven in different ways. Leave out the drives in which you tried "
+    "something, or give the robot another sensor."
 )
 
 
@@ -194,7 +195,7 @@ def clone_drives(
     parts = [part for part in parts if len(part.readings)]
     count = sum(len(part.readings) for part in parts)
     if count < 2:
-        raise SetupError(f"expected drives of at least 2 decisions, got {count}")
+        raise SetupError(_("expected drives of at least 2 decisions, got {count}", count=count))
     generator = np.random.default_rng(checked_seed(seed))
     readings = np.concatenate([part.readings for part in parts]).astype(np.float32)
     actions = np.concatenate([part.actions for part in parts])
@@ -221,7 +222,7 @@ def clone_drives(
     best = len(errors) - 1
     if not first.chooses:
         best = min(range(len(errors)), key=lambda index: errors[index][1])
-    most_often, _ = Counter(map(tuple, kinds[seen].tolist())).most_common(1)[0]
+    most_often, _count = Counter(map(tuple, kinds[seen].tolist())).most_common(1)[0]
 
     network = ActorCritic(observation_space, action_space, layers, key_actions)
     network.draw(generator)
@@ -350,7 +351,7 @@ def _imitate(
     for update in range(1, updates + 1):
         batch = generator.integers(len(inputs), size=min(BATCH, len(inputs)))
         outputs = network.actor.forward(inputs[batch])
-        _, slope = _loss(network, outputs, wanted[batch])
+        _error, slope = _loss(network, outputs, wanted[batch])
         network.actor.backward(slope)
         optimizer.step(network.actor.gradient)
         if measure is not None and (update % MEASURE_EVERY == 0 or update == updates):
@@ -395,7 +396,7 @@ def _judge(
     middle, spread = float(worth.mean()), max(float(worth.std()), 1e-6)
     wanted = (worth - middle) / spread
     optimizer = Adam(network.critic.parameters, RATE)
-    for _ in range(UPDATES // 2):
+    for _number in range(UPDATES // 2):
         batch = generator.integers(len(inputs), size=min(BATCH, len(inputs)))
         error = network.critic.forward(inputs[batch])[:, 0] - wanted[batch]
         network.critic.backward((2.0 * error / len(error))[:, None].astype(np.float32))
@@ -466,7 +467,7 @@ def _share_alike(kinds: Array, others: Array) -> float:
 
 def _remarks(count: int, network: ActorCritic, readings: Array, done: Array) -> list[str]:
     """Return a sentence for each fault of so many drives."""
-    remarks = [ONE_DRIVE] if count == 1 else []
+    remarks: list[str] = [ONE_DRIVE] if count == 1 else []
     if not len(network.unit):
         if (done == done[0]).all():
             remarks.append(ONE_CHOICE)

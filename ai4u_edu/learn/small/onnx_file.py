@@ -46,6 +46,7 @@ from ai4u_edu.learn.envs.spaces_of import (
 )
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.neural_network import Mlp
+from ai4u_edu.locale import gettext as _
 
 OPSET = 18
 """Version of the list of operations."""
@@ -116,7 +117,9 @@ def read_network(data: bytes, agent: BasicAgent) -> ActorCritic:
         SetupError: the file is of another kind, or of another agent's network.
     """
     if len(data) > MAX_LOADED_NETWORK_BYTES:
-        raise SetupError(f"expected a network of at most {MAX_LOADED_NETWORK_BYTES // 2**20} MB")
+        raise SetupError(
+            _("expected a network of at most {most} MB", most=MAX_LOADED_NETWORK_BYTES // 2**20)
+        )
     try:
         graph = dict(_fields(data))[7]
         numbers = dict(map(_read_array, (part for field, part in _fields(graph) if field == 5)))
@@ -131,7 +134,10 @@ def read_network(data: bytes, agent: BasicAgent) -> ActorCritic:
                 _fill(biases, numbers[f"{name}.{layer}.bias"])
     except (ValueError, KeyError, IndexError, TypeError, struct.error) as error:
         raise SetupError(
-            f"expected a network that was taught in the page for this agent, got: {error}"
+            _(
+                "expected a network that was taught in the page for this agent, got: {problem}",
+                problem=str(error),
+            )
         ) from None
     # take back what _scaled_in has multiplied in
     unit = np.ones(1) if network.chooses else np.where(network.unit > 0.0, network.unit, 1.0)
@@ -154,7 +160,7 @@ def _graph(
     """Return the graph: operations, numbers, inputs and outputs."""
     nodes: list[bytes] = []
     arrays: list[bytes] = []
-    for key, (_, dtype) in inputs.items():
+    for key, (_place, dtype) in inputs.items():
         source = key
         if dtype != np.float32:
             source = f"{key}/float"
@@ -331,7 +337,7 @@ def _fields(message: Any) -> Iterator[tuple[int, Any]]:
             number |= (part & 127) << shift
             if part < 128:
                 return number
-        raise ValueError("a number is too long")
+        raise ValueError(_("a number is too long"))
 
     while place < len(message):
         key = varint()
@@ -340,7 +346,7 @@ def _fields(message: Any) -> Iterator[tuple[int, Any]]:
             continue
         size = varint() if key & 7 == 2 else {1: 8, 5: 4}.get(key & 7, len(message))
         if size > len(message) - place:
-            raise ValueError("it ends in the middle")
+            raise ValueError(_("it ends in the middle"))
         yield key >> 3, message[place : place + size]
         place += size
 
@@ -361,6 +367,10 @@ def _read_array(message: bytes) -> tuple[str, npt.NDArray[Any]]:
 def _fill(place: npt.NDArray[Any], numbers: npt.NDArray[Any]) -> None:
     if place.shape != numbers.shape or not np.isfinite(numbers).all():
         raise ValueError(
-            f"expected finite numbers of the shape {place.shape}, got the shape {numbers.shape}"
+            _(
+                "expected finite numbers of the shape {shape}, got the shape {shape2}",
+                shape=str(place.shape),
+                shape2=str(numbers.shape),
+            )
         )
     place[:] = numbers

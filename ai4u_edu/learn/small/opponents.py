@@ -47,6 +47,7 @@ from ai4u_edu.learn.envs.scene_env import SceneEnv
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import ActorCritic
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 PLAYER, SELF, FILE = "player", "self", "file"
@@ -91,8 +92,14 @@ class Opponents:
             self.kind = "player" if against == PLAYER else "self"
         if against not in (PLAYER, SELF) and Path(against).suffix != ".onnx":
             raise SetupError(
-                f"against: expected {PLAYER!r}, {SELF!r} or a network (.onnx), got {against!r}; "
-                f"{suggest(against, (PLAYER, SELF))}"
+                _(
+                    "against: expected {player!r}, {self!r} or a network (.onnx), got "
+                    "{against!r}; {hint}",
+                    player=PLAYER,
+                    self=SELF,
+                    against=against,
+                    hint=suggest(against, (PLAYER, SELF)),
+                )
             )
         self._sides = _two_sides(scene)
         self._model = model or scene.build()  # nobody plays in it: its controllers are copied
@@ -102,18 +109,28 @@ class Opponents:
         self.learners: tuple[str, ...] = (name, other) if is_alike else (name,)
         if against == SELF and not is_alike:
             raise SetupError(
-                f"against: {name!r} can't play against itself, since the other side of "
-                f"{scene.description.name!r} has other robots; expected {PLAYER!r}, or a network "
-                f"(.onnx) for {', '.join(self.of(name))}"
+                _(
+                    "against: {name!r} can't play against itself, since the other side of "
+                    "{name2!r} has other robots; expected {player!r}, or a network (.onnx) for "
+                    "{of}",
+                    name=name,
+                    name2=scene.description.name,
+                    player=PLAYER,
+                    of=", ".join(self.of(name)),
+                )
             )
         for learner in self.learners:
             for opponent in self.of(learner):
                 if against == PLAYER and self._player(self._model.agent(opponent)) is None:
                     others = f"{SELF!r} or a network" if is_alike else "a network"
                     raise SetupError(
-                        f"against: only a person's keys drive {opponent!r} in "
-                        f"{scene.description.name!r}; expected {others} (.onnx), or give it a "
-                        "controller in the scene"
+                        _(
+                            "against: only a person's keys drive {opponent!r} in {name!r}; "
+                            "expected {others} (.onnx), or give it a controller in the scene",
+                            opponent=opponent,
+                            name=scene.description.name,
+                            others=others,
+                        )
                     )
         if against not in (PLAYER, SELF):
             self.worlds(1)  # a network that doesn't fit is refused before anything is written
@@ -380,8 +397,11 @@ def _two_sides(scene: Scene) -> Sides:
     sides = sides_of(scene)
     if sides.is_race:
         raise SetupError(
-            f"against: {scene.description.name!r} has one side only; expected a scene with two, "
-            "such as sumo, soccer or tag, or a training without it"
+            _(
+                "against: {name!r} has one side only; expected a scene with two, such as "
+                "sumo, soccer or tag, or a training without it",
+                name=scene.description.name,
+            )
         )
     return sides
 

@@ -42,6 +42,7 @@ from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import LAYERS, ActorCritic
 from ai4u_edu.learn.small.easy_starts import EasyStarts
 from ai4u_edu.learn.small.neural_network import Adam, Floats, clip_norm, parameter_count
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 Array = npt.NDArray[Any]
@@ -189,8 +190,11 @@ class Ppo:
         self.decisions += experience.advantages.size
         if not np.isfinite(self.network.parameters).all():
             raise AI4UError(
-                f"after {self.decisions} decisions the network's numbers are not finite any more; "
-                "try smaller rewards, or a smaller learning rate"
+                _(
+                    "after {decisions} decisions the network's numbers are not finite any more; "
+                    "try smaller rewards, or a smaller learning rate",
+                    decisions=self.decisions,
+                )
             )
 
     def drive(self) -> Experience:
@@ -251,7 +255,7 @@ class Ppo:
             numbers.ravel()
             for numbers in (experience.log_chances, experience.advantages, experience.returns)
         )
-        for _ in range(settings.epochs):
+        for _number in range(settings.epochs):
             order = self.generator.permutation(count)
             for start in range(0, count, settings.batch):
                 batch = order[start : start + settings.batch]
@@ -395,8 +399,11 @@ def _values(network: ActorCritic, inputs: Floats) -> Floats:
 def _small_enough(seed: int) -> int:
     if checked_seed(seed) > MAX_TRAINING_SEED:
         raise SetupError(
-            f"seed: expected a whole number from 0 to {MAX_TRAINING_SEED} for a training, got "
-            f"{seed}"
+            _(
+                "seed: expected a whole number from 0 to {most} for a training, got {seed}",
+                most=MAX_TRAINING_SEED,
+                seed=seed,
+            )
         )
     return checked_seed(seed)
 
@@ -415,8 +422,14 @@ def _checked_network(
     )
     if own != needed:
         raise SetupError(
-            f"begin_with: expected a network of this agent, for {observation_space} and "
-            f"{action_space}, got one for {own[0]} and {own[1]}"
+            _(
+                "begin_with: expected a network of this agent, for {observation_space} and "
+                "{action_space}, got one for {own} and {own2}",
+                observation_space=str(observation_space),
+                action_space=str(action_space),
+                own=str(own[0]),
+                own2=str(own[1]),
+            )
         )
     return network.copy()
 
@@ -461,8 +474,18 @@ def _checked_weights(weights: Mapping[str, float], agent: BasicAgent) -> dict[st
     for name, weight in weights.items():
         if name not in names:
             raise SetupError(
-                f"reward_weights: no reward term is called {name!r}; {suggest(name, names)}"
+                _(
+                    "reward_weights: no reward term is called {name!r}; {hint}",
+                    name=name,
+                    hint=suggest(name, names),
+                )
             )
         if not math.isfinite(weight):
-            raise SetupError(f"reward_weights: expected a finite weight of {name!r}, got {weight}")
+            raise SetupError(
+                _(
+                    "reward_weights: expected a finite weight of {name!r}, got {weight}",
+                    name=name,
+                    weight=weight,
+                )
+            )
     return dict(weights)

@@ -30,6 +30,7 @@ from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.opponents import SELF, Games, League, Opponents
 from ai4u_edu.learn.small.ppo import FIRST_SEED, Array, Ppo, PpoSettings
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 FIRST_CHECK_SEED = 2 * FIRST_SEED
@@ -237,7 +238,13 @@ class PpoTraining:
             )
             training._restore(state, arrays)
         except (OSError, ValueError, KeyError, TypeError, EOFError, BadZipFile) as error:
-            raise SetupError(f"{path}: expected a saved training of this agent: {error}") from None
+            raise SetupError(
+                _(
+                    "{path}: expected a saved training of this agent: {problem}",
+                    path=str(path),
+                    problem=str(error),
+                )
+            ) from None
         return training
 
     def _restore(self, state: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:

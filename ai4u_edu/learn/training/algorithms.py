@@ -14,6 +14,7 @@ from stable_baselines3.common.vec_env import VecEnv
 
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.learn.training.settings import Algorithm, AlgorithmSettings
+from ai4u_edu.locale import gettext as _
 
 CLASSES: dict[Algorithm, type[BaseAlgorithm]] = {"sac": SAC, "ppo": PPO, "dqn": DQN}
 
@@ -69,7 +70,14 @@ def load_model(algorithm: Algorithm, path: Path, worlds: VecEnv | None = None) -
         custom = {} if algorithm == "ppo" else {"replay_buffer_class": None}
         return CLASSES[algorithm].load(path, env=worlds, device="cpu", custom_objects=custom)
     except (OSError, ValueError, KeyError) as error:
-        raise SetupError(f"{path}: expected a model of {algorithm}, got: {error}") from None
+        raise SetupError(
+            _(
+                "{path}: expected a model of {algorithm}, got: {problem}",
+                path=str(path),
+                algorithm=algorithm,
+                problem=str(error),
+            )
+        ) from None
 
 
 def check_actions(algorithm: Algorithm, space: spaces.Space[Any]) -> None:
@@ -80,11 +88,19 @@ def check_actions(algorithm: Algorithm, space: spaces.Space[Any]) -> None:
     """
     if isinstance(space, spaces.Dict):
         raise SetupError(
-            f"expected an agent with one actuator for a policy to drive, got {sorted(space)}; "
-            "set is_output to False on the others"
+            _(
+                "expected an agent with one actuator for a policy to drive, got {space}; "
+                "set is_output to False on the others",
+                space=str(sorted(space)),
+            )
         )
     if algorithm == "sac" and not isinstance(space, spaces.Box):
-        raise SetupError(f"sac needs actions of real numbers, and here they are {space}; try dqn")
+        raise SetupError(
+            _(
+                "sac needs actions of real numbers, and here they are {space}; try dqn",
+                space=str(space),
+            )
+        )
 
 
 def falling(rate: float) -> Callable[[float], float]:
@@ -97,12 +113,16 @@ def _policy_for(space: spaces.Space[Any]) -> str:
         return "MultiInputPolicy"
     if not is_image_space(space):
         return "MlpPolicy"
-    height, width, *_ = space.shape or ()
+    height, width, *_rest = space.shape or ()
     if min(height, width) < MIN_PICTURE_CELLS:
         raise SetupError(
-            f"CnnPolicy: expected a picture of at least {MIN_PICTURE_CELLS} x "
-            f"{MIN_PICTURE_CELLS} cells, got {height} x {width}; "
-            "make the sensor's width and height larger"
+            _(
+                "CnnPolicy: expected a picture of at least {fewest} x {fewest} cells, got "
+                "{height} x {width}; make the sensor's width and height larger",
+                fewest=MIN_PICTURE_CELLS,
+                height=height,
+                width=width,
+            )
         )
     return "CnnPolicy"
 
@@ -119,6 +139,11 @@ def checked_options(algorithm: Algorithm, settings: AlgorithmSettings) -> dict[s
     for name in settings.others:
         if name not in known:
             raise SetupError(
-                f"{algorithm}: Stable-Baselines3 knows no setting {name!r}; {suggest(name, known)}"
+                _(
+                    "{algorithm}: Stable-Baselines3 knows no setting {name!r}; {hint}",
+                    algorithm=algorithm,
+                    name=name,
+                    hint=suggest(name, known),
+                )
             )
     return settings.others

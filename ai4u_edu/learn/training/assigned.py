@@ -7,6 +7,7 @@ from pathlib import Path
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NameNotFoundError, SetupError, suggest
 from ai4u_edu.learn.training.policies import Entrant, entrant, expect_here
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 _ID = re.compile(r"[\w .:\-]+")
@@ -36,14 +37,24 @@ def with_drivers(
         agent_id, who = agent_and_driver(spec, ids)
         if not agent_id and is_served and len(ids) > 1:
             raise SetupError(
-                f"--brain {spec}: the scene has several agents ({', '.join(ids)}); name one, as in "
-                f"--brain {ids[0]}={spec}"
+                _(
+                    "--brain {spec}: the scene has several agents ({ids}); name one, as in "
+                    "--brain {ids2}={spec}",
+                    spec=spec,
+                    ids=", ".join(ids),
+                    ids2=ids[0],
+                )
             )
         agent_id = agent_id or ids[0]
         if agent_id in entrants:
             raise SetupError(
-                f"--brain {spec}: agent {agent_id!r} is driven by {entrants[agent_id].name} "
-                "already; expected one driver for each agent"
+                _(
+                    "--brain {spec}: agent {agent_id!r} is driven by {name} already; expected "
+                    "one driver for each agent",
+                    spec=spec,
+                    agent_id=agent_id,
+                    name=entrants[agent_id].name,
+                )
             )
         found = entrant(who, scene.description.name)
         entrants[agent_id] = found if is_served else expect_here(found)
@@ -71,7 +82,13 @@ def agent_and_driver(spec: str, ids: Sequence[str]) -> tuple[str, str]:
     if not equals or (agent_id not in ids and _is_no_id(agent_id, spec)):
         return "", spec
     if agent_id not in ids:
-        raise NameNotFoundError(f"no agent has the id {agent_id!r}; {suggest(agent_id, ids)}")
+        raise NameNotFoundError(
+            _(
+                "no agent has the id {agent_id!r}; {hint}",
+                agent_id=agent_id,
+                hint=suggest(agent_id, ids),
+            )
+        )
     return agent_id, who
 
 

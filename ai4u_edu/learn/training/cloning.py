@@ -24,6 +24,7 @@ from ai4u_edu.learn.training.demonstrations import Cloned, demonstrations
 from ai4u_edu.learn.training.exporting import graph_of
 from ai4u_edu.learn.training.progress_bar import ProgressBar
 from ai4u_edu.learn.training.rays import RayNearness
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.player import Player
 
@@ -76,7 +77,10 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
             self.register_buffer("high", torch.as_tensor(space.high.ravel()))
         else:
             raise SetupError(
-                f"expected an agent with one actuator whose numbers have a range, got {space}"
+                _(
+                    "expected an agent with one actuator whose numbers have a range, got {space}",
+                    space=str(space),
+                )
             )
         hidden: list[nn.Module] = []
         width = len(self.places) + len(self.wholes) * len(self.ladder)
@@ -174,8 +178,11 @@ def clone(
     shown = demonstrations(episodes, agent=agent)
     if isinstance(shown.action_space, spaces.Dict):
         raise SetupError(
-            f"expected an agent with one actuator to learn, got {sorted(shown.action_space)}; "
-            "set is_output to False on the others"
+            _(
+                "expected an agent with one actuator to learn, got {action_space}; set "
+                "is_output to False on the others",
+                action_space=str(sorted(shown.action_space)),
+            )
         )
     seen = np.concatenate([each.observations[:-1] for each in shown.episodes]).astype(np.float32)
     done = np.concatenate(

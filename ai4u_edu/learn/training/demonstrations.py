@@ -17,6 +17,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.blocks import Actuator
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError, Replay
 from ai4u_edu.recording.episode import PERSON
 from ai4u_edu.recording.player import Player
@@ -24,7 +25,7 @@ from ai4u_edu.scenes import Scene, SceneDescription
 
 Array = npt.NDArray[Any]
 
-HOW_TO_RECORD = (
+HOW_TO_RECORD = _(
     "make some with: ai4u-edu record SCENE --brain ..., or ai4u-edu play SCENE --record DIR"
 )
 
@@ -112,8 +113,11 @@ class Demonstrations:
 
         if dataset_id in minari.list_local_datasets():
             raise SetupError(
-                f"there is a dataset {dataset_id!r} already; expected a new name, such as one with "
-                "a higher version (-v1)"
+                _(
+                    "there is a dataset {dataset_id!r} already; expected a new name, such as "
+                    "one with a higher version (-v1)",
+                    dataset_id=dataset_id,
+                )
             )
         buffers = [
             EpisodeBuffer(
@@ -184,12 +188,16 @@ def demonstrations(
             first = episode.scene, Player(episode).sim.agent(record.id)
         elif first[0].name != episode.scene.name:
             raise RecordingError(
-                f"expected episodes of one scene, got {first[0].name!r} and {episode.scene.name!r}"
+                _(
+                    "expected episodes of one scene, got {name!r} and {name2!r}",
+                    name=first[0].name,
+                    name2=episode.scene.name,
+                )
             )
         rhythms |= {(each.skip_frame, each.repeat_action) for each in record}
         found += _own_episodes(episode, record, first[1], Observer(first[1], observation))
     if first is None or not found:
-        raise RecordingError("expected recorded episodes with decisions in them, got none")
+        raise RecordingError(_("expected recorded episodes with decisions in them, got none"))
     scene, driver = first
     skip_frame, repeat_action = max(rhythms)
     return Demonstrations(
@@ -212,8 +220,12 @@ def load_episodes(paths: Sequence[Path]) -> list[Episode]:
     for path in paths:
         if not path.exists():
             raise RecordingError(
-                f"{path}: expected a recorded episode (.episode), or a folder of them, and there "
-                f"is none; {HOW_TO_RECORD}"
+                _(
+                    "{path}: expected a recorded episode (.episode), or a folder of them, and "
+                    "there is none; {how_to_record}",
+                    path=str(path),
+                    how_to_record=HOW_TO_RECORD,
+                )
             )
     files = [
         file
@@ -222,8 +234,11 @@ def load_episodes(paths: Sequence[Path]) -> list[Episode]:
     ]
     if not files:
         raise RecordingError(
-            f"{', '.join(map(str, paths))}: expected recorded episodes (.episode), found none; "
-            f"{HOW_TO_RECORD}"
+            _(
+                "{map}: expected recorded episodes (.episode), found none; {how_to_record}",
+                map=", ".join(map(str, paths)),
+                how_to_record=HOW_TO_RECORD,
+            )
         )
     return [Episode.load(file) for file in files]
 

@@ -10,6 +10,7 @@ from ai4u_edu.games.jobs import Engine, Job, run_jobs
 from ai4u_edu.learn.training.episode import EpisodeStats
 from ai4u_edu.learn.training.evaluating import Evaluation, evaluate
 from ai4u_edu.learn.training.policies import Entrant, entrant
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.scene_data import SceneData, scene_from
 
 PARTS_PER_CORE = 4
@@ -48,7 +49,15 @@ def evaluate_on(
         arguments = outcome.job.arguments
         if not outcome.is_done:
             first, last = arguments["seeds"][0], arguments["seeds"][-1]
-            raise AI4UError(f"{arguments['who']}, seeds {first} to {last}: {outcome.error}")
+            raise AI4UError(
+                _(
+                    "{who}, seeds {first} to {last}: {problem}",
+                    who=arguments["who"],
+                    first=first,
+                    last=last,
+                    problem=outcome.error,
+                )
+            )
         done[outcome.job.key] = outcome.result
         tell(len(arguments["seeds"]))
     return [_joined([done[job.key] for job in group]) for group in jobs]

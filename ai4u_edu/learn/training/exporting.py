@@ -29,6 +29,7 @@ from ai4u_edu.learn.training.algorithms import CLASSES
 from ai4u_edu.learn.training.prepare import prepare
 from ai4u_edu.learn.training.run import Config
 from ai4u_edu.learn.training.worlds import table_for
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 OPSET = 18
@@ -296,4 +297,6 @@ def _kind_of(model: BaseAlgorithm) -> str:
     for kind, cls in CLASSES.items():
         if isinstance(model, cls):
             return kind
-    raise SetupError(f"expected a model of SAC, PPO or DQN, got {type(model).__name__}")
+    raise SetupError(
+        _("expected a model of SAC, PPO or DQN, got {kind}", kind=type(model).__name__)
+    )

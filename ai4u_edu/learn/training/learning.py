@@ -27,6 +27,7 @@ from ai4u_edu.learn.training.progress_bar import REFRESH_S, ProgressBar
 from ai4u_edu.learn.training.run import Check, Config, Run, Trained
 from ai4u_edu.learn.training.settings import Algorithm, Settings
 from ai4u_edu.learn.training.worlds import ABOVE, Choices, make_worlds
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 if TYPE_CHECKING:
@@ -76,8 +77,11 @@ def train(
     """
     if checked_seed(seed) > MAX_TRAINING_SEED:
         raise ParameterError(
-            f"seed: expected a whole number from 0 to {MAX_TRAINING_SEED} for a training, got "
-            f"{seed}"
+            _(
+                "seed: expected a whole number from 0 to {most} for a training, got {seed}",
+                most=MAX_TRAINING_SEED,
+                seed=seed,
+            )
         )
     own = settings.of(algorithm)
     settings = with_learner(scene, settings, quiet=quiet)
@@ -136,8 +140,13 @@ def resume(
     config = config.model_copy(update={"steps": steps or config.steps, "settings": settings})
     if model.num_timesteps >= config.steps:
         raise SetupError(
-            f"{folder} has learned from {model.num_timesteps} steps already; "
-            f"expected --steps larger than that, got {config.steps}"
+            _(
+                "{folder} has learned from {num_timesteps} steps already; expected --steps "
+                "larger than that, got {steps}",
+                folder=str(folder),
+                num_timesteps=model.num_timesteps,
+                steps=config.steps,
+            )
         )
     return _learn(run, config, prepared, model, worlds, quiet, watch, keep_checkpoints)
 

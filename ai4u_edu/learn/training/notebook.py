@@ -15,6 +15,7 @@ from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.base.optional_deps import has, need
 from ai4u_edu.base.options import SMALL_TRAINER, load_option
 from ai4u_edu.base.seeding import seeds_from
+from ai4u_edu.locale import gettext as _
 
 if TYPE_CHECKING:
     from ai4u_edu.blocks import Controller
@@ -31,9 +32,10 @@ if TYPE_CHECKING:
 
 TRAINERS = ("sb3", "small")
 """Names of the learners: Stable-Baselines3 with torch, and the small one with NumPy alone."""
-WHY_SMALL = (
-    "the small learner (PPO and cloning with NumPy) learns, since Stable-Baselines3 and torch are "
-    'not installed here; to have them: pip install "ai4u-edu[train]"\n'
+WHY_SMALL = _(
+    "the small learner (PPO and cloning with NumPy) learns, since "
+    "Stable-Baselines3 and torch are not installed here; to have them: pip "
+    'install "ai4u-edu[train]"\n'
 )
 
 
@@ -116,12 +118,17 @@ def train(
     }
     if resume:
         if out is None:
-            raise SetupError("resume needs out, the folder of the training to go on with")
+            raise SetupError(_("resume needs out, the folder of the training to go on with"))
         began_by = Run(Path(out)).config().trainer
         if trainer not in ("", began_by):
             raise SetupError(
-                f"trainer: {out} was begun by {began_by!r}, which has to go on with it, got "
-                f"{trainer!r}"
+                _(
+                    "trainer: {out} was begun by {began_by!r}, which has to go on with it, got "
+                    "{trainer!r}",
+                    out=str(out),
+                    began_by=began_by,
+                    trainer=trainer,
+                )
             )
         trainer = began_by
     who = _trainer(trainer, for_sb3, for_small, quiet=quiet)
@@ -183,7 +190,12 @@ def train(
                     watch=page,
                 )
     raise SetupError(
-        f"algo: expected one of {', '.join(ALGORITHMS)}, got {algo!r}; {suggest(algo, ALGORITHMS)}"
+        _(
+            "algo: expected one of {algorithms}, got {algo!r}; {hint}",
+            algorithms=", ".join(ALGORITHMS),
+            algo=algo,
+            hint=suggest(algo, ALGORITHMS),
+        )
     )
 
 
@@ -222,7 +234,9 @@ def evaluate(
     driver = entrant_of(who)
     where = scene if scene is not None else driver.scene
     if not where:
-        raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
+        raise SetupError(
+            _("in which scene is {name} to drive? Expected scene=...", name=driver.name)
+        )
     seeds: Iterable[int] = seeds_from(seed, episodes)
     return evaluated(driver, _scene(where), counted(seeds, driver.name, quiet=quiet))
 
@@ -336,7 +350,10 @@ def export_checkpoints(
     checkpoints = run_of(path).checkpoints
     if not checkpoints:
         raise SetupError(
-            f"{path} has no checkpoints; train with: ai4u-edu train SCENE --keep-checkpoints"
+            _(
+                "{path} has no checkpoints; train with: ai4u-edu train SCENE --keep-checkpoints",
+                path=str(path),
+            )
         )
     make_folder(Path(out), "networks")
     return [
@@ -375,7 +392,9 @@ def demonstrate(
     driver = entrant_of(who)
     where = scene if scene is not None else driver.scene
     if not where:
-        raise SetupError(f"in which scene is {driver.name} to drive? Expected scene=...")
+        raise SetupError(
+            _("in which scene is {name} to drive? Expected scene=...", name=driver.name)
+        )
     fitted = expect_here(driver).fitted(_scene(where))
     sim = fitted.build()
     agent = sim.agent(driver.agent) if driver.agent else sim.agents[0]
@@ -383,7 +402,7 @@ def demonstrate(
     for each in counted(seeds_from(seed, episodes), driver.name, quiet=quiet):
         agent.use_brain(driver.brain(agent))
         sim.reset(each)
-        for _ in range(DEFAULT_MAX_DECISIONS):  # so often too if it takes no decisions
+        for _number in range(DEFAULT_MAX_DECISIONS):  # so often too if it takes no decisions
             if agent.done or agent.stopped or agent.paused:
                 break
             sim.step(agent)
@@ -454,8 +473,12 @@ def _trainer(
     """
     if name and name not in TRAINERS:
         raise SetupError(
-            f"trainer: expected one of {', '.join(TRAINERS)}, got {name!r}; "
-            f"{suggest(name, TRAINERS)}"
+            _(
+                "trainer: expected one of {trainers}, got {name!r}; {hint}",
+                trainers=", ".join(TRAINERS),
+                name=name,
+                hint=suggest(name, TRAINERS),
+            )
         )
     asked_sb3 = [each for each, value in for_sb3.items() if value]
     asked_small = [each for each, value in for_small.items() if value]
@@ -472,8 +495,13 @@ def _trainer(
     wrong = asked_sb3 if chosen == "small" else asked_small
     if wrong:
         raise SetupError(
-            f"{wrong[0]}: the trainer {chosen!r} has no such choice; leave it out, or take "
-            f"{'sb3' if chosen == 'small' else 'small'!r}"
+            _(
+                "{wrong}: the trainer {chosen!r} has no such choice; leave it out, or take "
+                "{value!r}",
+                wrong=wrong[0],
+                chosen=chosen,
+                value="sb3" if chosen == "small" else "small",
+            )
         )
     return chosen
 

@@ -12,6 +12,7 @@ from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.evaluating import Evaluation
 from ai4u_edu.learn.training.run import Check
+from ai4u_edu.locale import gettext as _
 
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
 MARKERS = "osD^v<>"
@@ -25,7 +26,7 @@ def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
         SetupError: there are no evaluations, or the file's name ends in no picture's format.
     """
     if not evaluations:
-        raise SetupError("expected at least one evaluation to draw, got none")
+        raise SetupError(_("expected at least one evaluation to draw, got none"))
     figure = Figure(figsize=(10, 1.2 + 0.6 * len(evaluations)), layout="constrained")
     success, returns, lengths = figure.subplots(1, 3, sharey=True)
     places = list(range(len(evaluations)))
@@ -48,11 +49,11 @@ def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
     lengths.boxplot(
         [each.lengths for each in evaluations], positions=places, orientation="horizontal"
     )
-    success.set(xlim=(-0.03, 1.03), xlabel="success (with 95% interval)", yticks=places)
+    success.set(xlim=(-0.03, 1.03), xlabel=_("success (with 95% interval)"), yticks=places)
     success.set_yticks(places, [_plain(each.name) for each in evaluations])
     success.invert_yaxis()
-    returns.set_xlabel("return of an episode")
-    lengths.set_xlabel("decisions in an episode")
+    returns.set_xlabel(_("return of an episode"))
+    lengths.set_xlabel(_("decisions in an episode"))
     _save(figure, path)
 
 
@@ -63,7 +64,7 @@ def plot_curves(curves: Mapping[str, Mapping[str, Sequence[Check]]], path: Path)
         SetupError: there are no panels, or the file's name ends in no picture's format.
     """
     if not curves:
-        raise SetupError("expected at least one panel to draw, got none")
+        raise SetupError(_("expected at least one panel to draw, got none"))
     figure = Figure(figsize=(4.2 * len(curves), 3.2), layout="constrained")
     panels: Any = figure.subplots(1, len(curves), sharey=True, squeeze=False)[0]
     for panel, (title, runs) in zip(panels, curves.items(), strict=True):
@@ -76,11 +77,11 @@ def plot_curves(curves: Mapping[str, Mapping[str, Sequence[Check]]], path: Path)
                 markersize=4,
                 label=_plain(name),
             )
-        panel.set(title=_plain(title), xlabel="decisions learned from", ylim=(-0.03, 1.03))
+        panel.set(title=_plain(title), xlabel=_("decisions learned from"), ylim=(-0.03, 1.03))
         panel.set_xlim(left=0)
         panel.locator_params(axis="x", nbins=5)
         panel.grid(alpha=0.3)
-    panels[0].set_ylabel("success in a check")
+    panels[0].set_ylabel(_("success in a check"))
     if panels[0].lines:
         panels[0].legend(fontsize="small")
     _save(figure, path)
@@ -100,8 +101,12 @@ def check_picture(path: Path) -> None:
     ending = path.suffix.lower().removeprefix(".")
     if ending not in known:
         raise SetupError(
-            f"{path}: expected a name that ends in .png, got {path.name!r}; known are "
-            f"{', '.join(known)}"
+            _(
+                "{path}: expected a name that ends in .png, got {name!r}; known are {known}",
+                path=str(path),
+                name=path.name,
+                known=", ".join(known),
+            )
         )
 
 

@@ -38,9 +38,10 @@ from ai4u_edu.world import WorldView
 ZOO = "zoo"
 """Name of the scene's own network in the package."""
 SCHEME = "ai4u://"
-FORMS = (
-    "a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo for the scene's "
-    "own), FILE.py:NAME, an AI4U script (ai4u://127.0.0.1:8080), random, scene, or a controller"
+FORMS = _(
+    "a training's folder, a model (.zip), a network (.onnx, zoo:SCENE, or zoo "
+    "for the scene's own), FILE.py:NAME, an AI4U script "
+    "(ai4u://127.0.0.1:8080), random, scene, or a controller"
 )
 """Forms in which a command line names a driver."""
 CALL_LIMIT_S = 5.0
@@ -109,7 +110,14 @@ def entrant(spec: str, scene: str = "") -> Entrant:
     }
     if spec in controllers:
         return Entrant(spec, _in_rhythm(controllers[spec]))
-    raise SetupError(f"nobody is called {spec!r}: expected {FORMS}; {suggest(spec, controllers)}")
+    raise SetupError(
+        _(
+            "nobody is called {spec!r}: expected {forms}; {hint}",
+            spec=spec,
+            forms=FORMS,
+            hint=suggest(spec, controllers),
+        )
+    )
 
 
 def expect_here(who: Entrant) -> Entrant:
@@ -120,8 +128,11 @@ def expect_here(who: Entrant) -> Entrant:
     """
     if who.is_remote:
         raise SetupError(
-            f"{who.name}: a script drives in a served world only; expected: "
-            f"ai4u-edu play SCENE --brain {who.name} (with --record DIR to keep the episodes)"
+            _(
+                "{name}: a script drives in a served world only; expected: ai4u-edu play "
+                "SCENE --brain {name} (with --record DIR to keep the episodes)",
+                name=who.name,
+            )
         )
     return who
 
@@ -147,8 +158,11 @@ def entrant_of(who: Any) -> Entrant:
     if callable(who):
         return Entrant(getattr(who, "__name__", "function"), _in_rhythm(lambda: who))
     raise SetupError(
-        "expected a function from percept to action, a Controller, what train() or clone() gave, "
-        f"or a name as in ai4u-edu evaluate --help; got {who!r}"
+        _(
+            "expected a function from percept to action, a Controller, what train() or "
+            "clone() gave, or a name as in ai4u-edu evaluate --help; got {who!r}",
+            who=who,
+        )
     )
 
 
@@ -247,7 +261,7 @@ def _rhythm(agent: BasicAgent) -> dict[str, Any]:
 def _of_file(path: Path, name: str) -> Callable[[BasicAgent], Brain]:
     """Return how to make a brain from a function or a controller in a user's Python file."""
     if not path.is_file():
-        raise SetupError(f"{path}: there is no such Python file")
+        raise SetupError(_("{path}: there is no such Python file", path=str(path)))
     source = program_text(path)
     if source is None:
         return _in_rhythm(_from_file(path, name))
@@ -260,7 +274,7 @@ def _from_file(path: Path, name: str) -> Callable[[], Any]:
     called = f"own_controllers_{path.stem}"
     found = importlib.util.spec_from_file_location(called, path)
     if found is None or found.loader is None:
-        raise SetupError(f"{path}: there is no such Python file")
+        raise SetupError(_("{path}: there is no such Python file", path=str(path)))
     module = sys.modules[called] = importlib.util.module_from_spec(found)
     try:
         found.loader.exec_module(module)
@@ -268,7 +282,14 @@ def _from_file(path: Path, name: str) -> Callable[[], Any]:
         raise SetupError(f"{path}: {type(error).__name__}: {error}") from error
     if not hasattr(module, name):
         known = [each for each in vars(module) if not each.startswith("_")]
-        raise AI4UError(f"{path} has no {name!r}; {suggest(name, known)}")
+        raise AI4UError(
+            _(
+                "{path} has no {name!r}; {hint}",
+                path=str(path),
+                name=name,
+                hint=suggest(name, known),
+            )
+        )
     value = getattr(module, name)
     if isinstance(value, type) and issubclass(value, Controller):
         return value

@@ -6,6 +6,7 @@ from typing import Any
 
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.learn.training.settings import Settings
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 
@@ -46,8 +47,12 @@ def with_learner(scene: Scene, settings: Settings, *, quiet: bool = True) -> Set
     first, *others = (agent.id for agent in scene.build().agents)
     if not quiet:
         sys.stderr.write(
-            f"{first!r} learns, the first of several agents ({', '.join([first, *others])}); to "
-            "choose another one, say --agent ID, or agent: ID in a settings file\n"
+            _(
+                "{first!r} learns, the first of several agents ({value}); to choose another "
+                "one, say --agent ID, or agent: ID in a settings file\n",
+                first=first,
+                value=", ".join([first, *others]),
+            )
         )
     return settings.model_copy(update={"agent": first})
 
@@ -57,7 +62,13 @@ def index_of_learner(scene: Scene, settings: Settings) -> int:
     ids = [str(agent.get("id", "0")) for agent in scene.description.agents]
     name = settings.agent or scene.build().agents[0].id
     if name not in ids:
-        raise SetupError(f"agent: the scene has none with the id {name!r}; {suggest(name, ids)}")
+        raise SetupError(
+            _(
+                "agent: the scene has none with the id {name!r}; {hint}",
+                name=name,
+                hint=suggest(name, ids),
+            )
+        )
     return ids.index(name)
 
 
@@ -72,6 +83,12 @@ def _observe(agent: dict[str, Any], settings: Settings, scene: Scene) -> None:
     keys = [sensor.perception_key for sensor in built.sensors]
     for key in settings.observe:
         if key not in keys:
-            raise SetupError(f"observe: no sensor has the key {key!r}; {suggest(key, keys)}")
+            raise SetupError(
+                _(
+                    "observe: no sensor has the key {key!r}; {hint}",
+                    key=key,
+                    hint=suggest(key, keys),
+                )
+            )
     for key, sensor in zip(keys, agent["sensors"], strict=True):
         sensor["is_input"] = key in settings.observe

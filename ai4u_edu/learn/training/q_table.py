@@ -14,6 +14,7 @@ from gymnasium.spaces import Discrete
 
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.learn.training.progress_bar import counted
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 DIRTY_CODE = 200
@@ -48,7 +49,13 @@ def still(scene: Scene, *but: str) -> Scene:
     names = [thing.name for thing in scene.description.things]
     for name in but:
         if name not in names:
-            raise SetupError(f"the scene has nothing called {name!r}; {suggest(name, names)}")
+            raise SetupError(
+                _(
+                    "the scene has nothing called {name!r}; {hint}",
+                    name=name,
+                    hint=suggest(name, names),
+                )
+            )
     fixed = {"random": None, "curriculum": None}
     kinds = {
         kind: tuple(
@@ -125,16 +132,21 @@ def q_learning(
     True
     """
     if not isinstance(env.action_space, Discrete):
-        raise SetupError(f"expected actions to choose from (Discrete), got {env.action_space}")
+        raise SetupError(
+            _(
+                "expected actions to choose from (Discrete), got {action_space}",
+                action_space=str(env.action_space),
+            )
+        )
     actions = int(env.action_space.n)
     table, chance = QTable(actions, state), np.random.default_rng(seed)
     for episode in counted(range(episodes), "Q-learning", quiet=quiet):
-        seen, _ = env.reset(seed=2**40 + 1000 * seed + episode)
+        seen, _info = env.reset(seed=2**40 + 1000 * seed + episode)
         here, over, total = state(seen), False, 0.0
         while not over:
             curious = chance.random() < curiosity
             action = int(chance.integers(actions)) if curious else table.best(here)
-            seen, paid, terminated, truncated, _ = env.step(action)
+            seen, paid, terminated, truncated, _info = env.step(action)
             reward = float(paid)
             there = state(seen)
             to_come = 0.0 if terminated else table.of(there).max()

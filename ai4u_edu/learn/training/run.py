@@ -32,6 +32,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from ai4u_edu.base.atomic_write import make_folder, partial_file
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.settings import Algorithm, Settings
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 CHECKPOINT = "checkpoint-"
@@ -92,11 +93,17 @@ def run_of(path: Path) -> "Run":
     if not path.is_file():
         folder = path.with_suffix("") if path.suffix == ".zip" else path
         raise SetupError(
-            f"{path} holds no training: there is no such folder or model (.zip); begin one with: "
-            f"ai4u-edu train SCENE --out {folder}"
+            _(
+                "{path} holds no training: there is no such folder or model (.zip); begin "
+                "one with: ai4u-edu train SCENE --out {folder}",
+                path=str(path),
+                folder=str(folder),
+            )
         )
     if path.suffix != ".zip":
-        raise SetupError(f"{path}: expected a training's folder, or a model (.zip) in it")
+        raise SetupError(
+            _("{path}: expected a training's folder, or a model (.zip) in it", path=str(path))
+        )
     return Run(path.parent)
 
 
@@ -148,8 +155,11 @@ class Run:
         """
         if (self.folder / "config.json").exists():
             raise SetupError(
-                f"{self.folder} holds a training already; go on with it (resume), choose another "
-                "folder (out), or begin anew in this one (overwrite)"
+                _(
+                    "{folder} holds a training already; go on with it (resume), choose another "
+                    "folder (out), or begin anew in this one (overwrite)",
+                    folder=str(self.folder),
+                )
             )
         make_folder(self.folder, "a training")
         scene.save(self.folder / "scene.yaml")
@@ -166,11 +176,20 @@ class Run:
             return Config.model_validate_json(path.read_bytes())
         except OSError:
             raise SetupError(
-                f"{self.folder} holds no training; begin one with: ai4u-edu train SCENE --out "
-                f"{self.folder}"
+                _(
+                    "{folder} holds no training; begin one with: ai4u-edu train SCENE --out "
+                    "{folder}",
+                    folder=str(self.folder),
+                )
             ) from None
         except ValidationError as error:
-            raise SetupError(f"{path}: not as a training writes it: {error}") from None
+            raise SetupError(
+                _(
+                    "{path}: not as a training writes it: {problem}",
+                    path=str(path),
+                    problem=str(error),
+                )
+            ) from None
 
     def scene(self) -> Scene:
         """Return the scene as it was."""

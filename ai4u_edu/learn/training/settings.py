@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ai4u_edu.base.errors import SceneError, SetupError
 from ai4u_edu.base.parameters import explain, format_problems
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.yaml.file import YamlFile
 
 EXPECTED = "lines such as algorithm: ..., sac: ..., ppo: ..."
@@ -157,7 +158,9 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         return YamlFile(path.read_text(encoding="utf-8-sig"), path.name, EXPECTED).data
     except (OSError, UnicodeDecodeError) as error:
-        raise SetupError(f"{path}: can't be read: {error}") from None
+        raise SetupError(
+            _("{path}: can't be read: {problem}", path=str(path), problem=str(error))
+        ) from None
     except SceneError as error:
         raise SetupError(str(error)) from None
 

@@ -32,6 +32,7 @@ from ai4u_edu.games.jobs import Engine
 from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
 from ai4u_edu.learn.training.evaluating import Evaluation
 from ai4u_edu.learn.training.policies import entrant, expect_here
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.scene_data import SceneData
 from ai4u_edu.scenes.serialization import PlainDataError, is_serializable, to_plain
@@ -211,10 +212,28 @@ def parameter_named(scene: Scene, name: str) -> NumberParameter:
         return fitting[0]
     if fitting:
         several = ", ".join(each.name for each in fitting)
-        raise SetupError(f"expected the whole name of one parameter, got {name!r}: {several}")
+        raise SetupError(
+            _(
+                "expected the whole name of one parameter, got {name!r}: {several}",
+                name=name,
+                several=several,
+            )
+        )
     if owned := [full for full in known if full.startswith((f"{name}.", f"0.{name}."))]:
-        raise SetupError(f"expected a parameter, got {name!r}, which has {', '.join(owned)}")
-    raise SetupError(f"no number of this scene is called {name!r}; {suggest(name, known)}")
+        raise SetupError(
+            _(
+                "expected a parameter, got {name!r}, which has {owned}",
+                name=name,
+                owned=", ".join(owned),
+            )
+        )
+    raise SetupError(
+        _(
+            "no number of this scene is called {name!r}; {hint}",
+            name=name,
+            hint=suggest(name, known),
+        )
+    )
 
 
 def parse_values(text: str) -> list[float]:
@@ -230,11 +249,15 @@ def parse_values(text: str) -> list[float]:
     for part in text.split(","):
         match = re.fullmatch(r"\s*([+-]?(\d+|\d*\.\d+|\d+\.)([eE][+-]?\d{1,3})?)\s*", part)
         if match is None or len(match[1]) > 30:
-            raise SetupError(f"expected numbers with commas between, as in 1,2,4, got {text!r}")
+            raise SetupError(
+                _("expected numbers with commas between, as in 1,2,4, got {text!r}", text=text)
+            )
         values.append(int(match[1]) if re.fullmatch(r"[+-]?\d+", match[1]) else float(match[1]))
     values = [*dict.fromkeys(values)]
     if len(values) > MAX_VALUES:
-        raise SetupError(f"expected at most {MAX_VALUES} values, got {len(values)}; try fewer")
+        raise SetupError(
+            _("expected at most {most} values, got {n}; try fewer", most=MAX_VALUES, n=len(values))
+        )
     return values
 
 
@@ -286,17 +309,30 @@ def with_driver(scene: Scene, spec: str, agent: str = "") -> tuple[Scene, str]:
     brain = who.brain(driven)
     if not isinstance(brain, LocalBrain):
         got = type(brain).__name__
-        raise SetupError(f"agent {driven.id!r}: expected a network or a controller, got a {got}")
+        raise SetupError(
+            _(
+                "agent {id!r}: expected a network or a controller, got a {got}",
+                id=driven.id,
+                got=got,
+            )
+        )
     controller = brain.controller
     if not isinstance(controller, Controller) or not is_serializable(type(controller)):
         raise SetupError(
-            f"{spec}: expected a driver that a scene file can have; export the network first: "
-            f"ai4u-edu export {spec} --out policy.onnx"
+            _(
+                "{spec}: expected a driver that a scene file can have; export the network "
+                "first: ai4u-edu export {spec} --out policy.onnx",
+                spec=spec,
+            )
         )
     if listens_to_keys(type(controller)):
         raise SetupError(
-            f"agent {driven.id!r} follows keys ({type(controller).__name__}), which nobody presses "
-            "here; expected another driver, as in --brain zoo for the scene's own network"
+            _(
+                "agent {id!r} follows keys ({kind}), which nobody presses here; expected "
+                "another driver, as in --brain zoo for the scene's own network",
+                id=driven.id,
+                kind=type(controller).__name__,
+            )
         )
     if spec == FROM_SCENE:
         return scene, spec

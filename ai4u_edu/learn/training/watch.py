@@ -18,6 +18,7 @@ from stable_baselines3.common.callbacks import BaseCallback
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.learn.training.run import Run
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.runtime.training_progress import CurvePoint, TrainingProgress
 
 DEFAULT_PORT = 8080
@@ -111,7 +112,7 @@ class Watch(BaseCallback):  # type: ignore[misc]  # seen without its types
     @property
     def _training(self) -> Run:
         if self._run is None:
-            raise SetupError("expected a training to watch; give this to train(watch=...)")
+            raise SetupError(_("expected a training to watch; give this to train(watch=...)"))
         return self._run
 
     def _write_progress(self, *, is_over: bool) -> None:

@@ -12,6 +12,7 @@ from stable_baselines3.common.vec_env import VecEnv, VecEnvWrapper
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.learn.envs.sb3 import SceneVecEnv
 from ai4u_edu.learn.training.settings import NO_REWARD, Algorithm, Settings
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 ABOVE = 2**40
@@ -41,8 +42,11 @@ def make_worlds(scene: Scene, settings: Settings, algorithm: Algorithm) -> VecEn
         names = [each.name for each in scenes.envs[0].agent.rewards]
         if settings.without_reward not in names:
             raise SetupError(
-                f"without_reward: no reward term is called {settings.without_reward!r}; "
-                f"{suggest(settings.without_reward, names)}"
+                _(
+                    "without_reward: no reward term is called {without_reward!r}; {hint}",
+                    without_reward=settings.without_reward,
+                    hint=suggest(settings.without_reward, names),
+                )
             )
         worlds = WithoutReward(worlds, settings.without_reward)
     if algorithm == "dqn" and isinstance(worlds.action_space, spaces.Box):
@@ -108,7 +112,13 @@ def table_for(space: spaces.Box, given: Sequence[Sequence[float]] = ()) -> npt.N
     if given:
         wrong = [row for row in given if len(row) != count]
         if wrong:
-            raise SetupError(f"actions: expected rows of {count} numbers, got {list(wrong[0])}")
+            raise SetupError(
+                _(
+                    "actions: expected rows of {count} numbers, got {list}",
+                    count=count,
+                    list=str(list(wrong[0])),
+                )
+            )
         return np.clip(np.array(given, np.float32), space.low.ravel(), space.high.ravel())
     rows = [np.zeros(count, np.float32)]
     for index, end in product(range(count), (space.low.ravel(), space.high.ravel())):

@@ -5,6 +5,7 @@ import os
 import socket
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import gettext as _
 
 WILDCARD_HOSTS = {"": "127.0.0.1", "0.0.0.0": "127.0.0.1", "::": "::1"}  # noqa: S104 - read, not bound
 """Hosts that mean all addresses of this machine, each with its loopback address."""
@@ -35,8 +36,12 @@ def listen(host: str, port: int) -> socket.socket:
         )[0]
     except (OSError, UnicodeError) as error:
         raise AddressError(
-            f"expected an address of this machine, got --host {host!r} ({error}); "
-            "use --host 127.0.0.1"
+            _(
+                "expected an address of this machine, got --host {host!r} ({problem}); use "
+                "--host 127.0.0.1",
+                host=host,
+                problem=str(error),
+            )
         ) from None
     # the protocol is passed on because asyncio sets TCP_NODELAY only for sockets that name TCP;
     # without it a small frame that follows another one waits for up to 40 ms
@@ -62,11 +67,26 @@ def url_of(host: str, listener: socket.socket) -> str:
 def _explained(error: OSError, host: str, port: int) -> AddressError:
     if error.errno == errno.EADDRINUSE:
         return PortTakenError(
-            f"port {port} is taken by another program (or another AI4U Edu); "
-            f"use --port 0 for a free one, or --port {port + 1}"
+            _(
+                "port {port} is taken by another program (or another AI4U Edu); use --port "
+                "0 for a free one, or --port {port2}",
+                port=port,
+                port2=port + 1,
+            )
         )
     if error.errno == errno.EACCES:
-        return AddressError(f"port {port} is not allowed to you ({error}); use --port 0")
+        return AddressError(
+            _(
+                "port {port} is not allowed to you ({problem}); use --port 0",
+                port=port,
+                problem=str(error),
+            )
+        )
     return AddressError(
-        f"expected an address of this machine, got --host {host!r} ({error}); use --host 127.0.0.1"
+        _(
+            "expected an address of this machine, got --host {host!r} ({problem}); use "
+            "--host 127.0.0.1",
+            host=host,
+            problem=str(error),
+        )
     )

@@ -8,6 +8,7 @@ from threading import Lock, Thread
 
 from ai4u_edu.agent.block_errors import storable
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.loop_queue import result_of
 from ai4u_edu.recording import Episode
 
@@ -72,8 +73,11 @@ class Exports:
                 return self._cached[key][1]
             if self._waiting >= MAX_WAITING:
                 raise BusyError(
-                    f"expected at most {MAX_WAITING} requests that wait for files, got another "
-                    "one; try again in a moment"
+                    _(
+                        "expected at most {most} requests that wait for files, got another one; "
+                        "try again in a moment",
+                        most=MAX_WAITING,
+                    )
                 )
             job = self._jobs.get(key) or self._enqueue(key, episode, ending)
             job.waiting += 1
@@ -90,8 +94,11 @@ class Exports:
     def _enqueue(self, key: "_Key", episode: Episode, ending: str) -> "_Job":
         if len(self._queue) >= MAX_QUEUED:
             raise BusyError(
-                f"expected at most {MAX_QUEUED} files that wait to be made, got another one; try "
-                "again in a moment"
+                _(
+                    "expected at most {most} files that wait to be made, got another one; "
+                    "try again in a moment",
+                    most=MAX_QUEUED,
+                )
             )
         job = self._jobs[key] = _Job(key, episode, ending)
         self._queue.append(job)

@@ -15,8 +15,10 @@ import socket
 from collections.abc import Collection
 
 from starlette.datastructures import Headers, MutableHeaders
-from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.page.server.reader_language import TextResponse
 
 LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
 """Names of this machine for itself."""
@@ -92,7 +94,7 @@ class HostOriginCheck:
             return
         refusal = self.refusal(scope)
         if refusal:
-            await PlainTextResponse(refusal + "\n", 403)(scope, receive, send)
+            await TextResponse(refusal, 403)(scope, receive, send)
             return
 
         async def send_guarded(message: Message) -> None:
@@ -120,16 +122,21 @@ with --allow-host NAME"
         host = hosts[0].lower() if len(hosts) == 1 else ""
         parts = _HOST.fullmatch(host)
         if parts is None or not _is_sound(parts) or not self._knows(parts[1]):
-            return (
-                f"Host: expected one of {', '.join(sorted(self._hosts))}, got "
-                f"{_cut(', '.join(hosts))!r}; a name is allowed with --allow-host NAME"
+            return _(
+                "Host: expected one of {hosts}, got {got!r}; a name is allowed with "
+                "--allow-host NAME",
+                hosts=", ".join(sorted(self._hosts)),
+                got=_cut(", ".join(hosts)),
             )
         scheme = "https" if scope.get("scheme") in ("https", "wss") else "http"
         origins = headers.getlist("origin")
         if not all(self._is_ours(origin.lower(), host, scheme) for origin in origins):
-            return (
-                f"Origin: expected {scheme}://{host} (the page that this server gives out), got "
-                f"{_cut(', '.join(origins))!r}; behind a proxy, start with --allow-host NAME"
+            return _(
+                "Origin: expected {scheme}://{host} (the page that this server gives out), "
+                "got {got!r}; behind a proxy, start with --allow-host NAME",
+                scheme=scheme,
+                host=host,
+                got=_cut(", ".join(origins)),
             )
         sites = [site.lower() for site in headers.getlist("sec-fetch-site")]
         if (
@@ -137,9 +144,10 @@ with --allow-host NAME"
             and not set(sites) <= _OWN_SITES
             and not _is_navigation(scope, headers, self._pages)
         ):
-            return (
-                f"Sec-Fetch-Site: expected same-origin (the page that this server gives out), got "
-                f"{_cut(', '.join(sites))!r}; open the page itself"
+            return _(
+                "Sec-Fetch-Site: expected same-origin (the page that this server gives "
+                "out), got {got!r}; open the page itself",
+                got=_cut(", ".join(sites)),
             )
         return ""
 

@@ -19,6 +19,7 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
 from ai4u_edu.base.errors import NameNotFoundError, shorten
 from ai4u_edu.blocks.keyboard import CENTERED, Stick
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.messages import Message, PageCommand, translated
 from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.class_feed import ClassFeed, PageOfClass
@@ -93,7 +94,7 @@ class Inputs:
             except NameNotFoundError as error:
                 if RECONNECT_PARAM not in socket.query_params:
                     await socket.send_text(_json(ErrorEvent(str(error))))
-                    await socket.close(1008, "there is no such agent")
+                    await socket.close(1008, _("there is no such agent"))
                     return
                 agent = choose_agent(sim, None)
             controls, number = self._controls_of(agent), next(self._numbers)

@@ -15,6 +15,7 @@ from starlette.responses import Response
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.locale import SOURCE, catalogue, page_catalogue
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles
 
 _PLACE = "<title>Viser</title>"
@@ -132,13 +133,17 @@ class _Index(NamedTuple):
 def _index(title: str, modules: list[str], files: WebFiles, *, has_panel: bool) -> _Index:
     spec = find_spec("viser")
     if spec is None or spec.origin is None:
-        raise SetupError("expected the package viser, found none; install ai4u-edu again")
+        raise SetupError(_("expected the package viser, found none; install ai4u-edu again"))
     path = Path(spec.origin).parent / "client" / "build" / "index.html"
     text = path.read_text(encoding="utf-8") if path.is_file() else ""
     if text.count(_PLACE) != 1:
         raise SetupError(
-            f"expected viser's page with {_PLACE} in {path}; install the viser that ai4u-edu asks "
-            "for (pip install --force-reinstall ai4u-edu)"
+            _(
+                "expected viser's page with {place} in {path}; install the viser that "
+                "ai4u-edu asks for (pip install --force-reinstall ai4u-edu)",
+                place=_PLACE,
+                path=str(path),
+            )
         )
     ours = _OURS.format(
         title=html.escape(title),

@@ -5,7 +5,10 @@ from typing import NamedTuple, TypeVar
 
 from starlette.websockets import WebSocket, WebSocketState
 
+from ai4u_edu.base.errors import text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.socket_close import close_reason
 
 M = TypeVar("M")
 MAX_MISTAKES = 5
@@ -38,24 +41,29 @@ async def receive_messages(
     limit, mistakes = RateLimit(limits.messages_per_s), 0
     while (frame := await socket.receive())["type"] == "websocket.receive":
         if limit.take():
-            expected = f"expected at most {limits.messages_per_s} messages a second"
+            expected = _(
+                "expected at most {messages_per_s} messages a second",
+                messages_per_s=limits.messages_per_s,
+            )
             await close_socket(socket, 1008, expected)
             return
         data = frame.get("text") or frame.get("bytes") or ""
         is_binary = isinstance(data, bytes)
         max_bytes = (limits.binary_bytes if is_binary else 0) or limits.message_bytes
         if len(data) > max_bytes:
-            expected = f"expected at most {max_bytes} bytes"
-            await refuse("", f"{expected}, got {len(data)}")
-            await close_socket(socket, 1009, f"{expected} in a message")
+            expected = _("expected at most {most} bytes", most=max_bytes)
+            await refuse("", _("{expected}, got {number}", expected=expected, number=len(data)))
+            await close_socket(socket, 1009, _("{expected} in a message", expected=expected))
             return
         try:
             message = read(data)
         except ValueError as error:
             mistakes += 1
-            await refuse(data, str(error))
+            await refuse(data, text_of(error))
             if mistakes >= MAX_MISTAKES:
-                await close_socket(socket, 1008, f"{MAX_MISTAKES} malformed messages in a row")
+                await close_socket(
+                    socket, 1008, _("{most} malformed messages in a row", most=MAX_MISTAKES)
+                )
                 return
             continue
         mistakes = 0
@@ -65,4 +73,4 @@ async def receive_messages(
 async def close_socket(socket: WebSocket, code: int, reason: str) -> None:
     """Close a connection, unless another task has done so: a page floods while its world ends."""
     if socket.application_state is WebSocketState.CONNECTED:
-        await socket.close(code, reason)
+        await socket.close(code, close_reason(reason))

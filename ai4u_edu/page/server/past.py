@@ -8,12 +8,14 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import Request
-from starlette.responses import PlainTextResponse, Response, StreamingResponse
+from starlette.responses import Response, StreamingResponse
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.scene_pictures import scene_picture
 from ai4u_edu.page.server.api import Number
 from ai4u_edu.page.server.exports import RETRY_AFTER_S, BusyError, Exports
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.recording import ArchiveEntry, Episode, Replay
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.recording.exports.csv_file import write_csv
@@ -114,24 +116,30 @@ class Past:
     async def file(self, request: Request) -> Response:
         """Return an episode as a file: ``3.episode``, ``3.html``, ..."""
         name = str(request.path_params["file"])
-        number, _, ending = name.partition(".")
+        number, _dot, ending = name.partition(".")
         known = (RECORDING, PICTURE, *WRITERS)
         if ending not in known or not (number.isdecimal() and number.isascii()):
             expected = ", ".join(f"NUMBER.{each}" for each in known)
-            return PlainTextResponse(f"expected one of {expected}, got {name[:80]!r}\n", 404)
+            return TextResponse(
+                _("expected one of {expected}, got {name!r}", expected=expected, name=name[:80]),
+                404,
+            )
         entry = next((each for each in self._entries() if str(each.number) == number), None)
         if entry is None:
             kept = ", ".join(str(each.number) for each in self._entries()) or "none"
-            return PlainTextResponse(f"no episode {number[:20]} is kept; there are {kept}\n", 404)
+            return TextResponse(
+                _("no episode {number} is kept; there are {kept}", number=number[:20], kept=kept),
+                404,
+            )
         if ending == PICTURE:
             return await self._picture(entry)
         try:
             data = await self._made(entry.episode, ending, request)
         except BusyError as error:
             headers = {"Retry-After": str(RETRY_AFTER_S), "Cache-Control": "no-store"}
-            return PlainTextResponse(f"{error}\n", 503, headers)
+            return TextResponse(text_of(error), 503, headers)
         except AI4UError as error:
-            return PlainTextResponse(f"{error}\n", 409)
+            return TextResponse(text_of(error), 409)
         kind = RECORDING_KIND if ending == RECORDING else WRITERS[ending][0]
         attached = f'attachment; filename="{_plain(entry)}.{ending}"'
         about = {"Content-Disposition": attached, "Content-Length": str(len(data))}
@@ -146,7 +154,7 @@ class Past:
                 try:
                     data = await asyncio.to_thread(_drawn, entry.episode)
                 except AI4UError as error:
-                    return PlainTextResponse(f"{error}\n", 409)
+                    return TextResponse(text_of(error), 409)
                 self._pictures[entry.number] = data
         headers = {"Cache-Control": "private, max-age=3600"}
         return Response(self._pictures[entry.number], media_type="image/png", headers=headers)

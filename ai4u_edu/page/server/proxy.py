@@ -15,8 +15,10 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.typing import Subprotocol
 
 from ai4u_edu.base.log_limit import log_limited
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server import page_messages
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
+from ai4u_edu.page.server.limits.socket_close import close_reason
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.socket_pump import pump_sockets
 from ai4u_edu.page.server.token_auth import with_token
@@ -83,7 +85,9 @@ class ViserProxy:
             token = page.headers.get(SCRIPT_KEY_HEADER, self._token)
             viser = await connect_viser(scope, self._port, self._secret, token, self._timeout)
         except (OSError, InvalidHandshake):
-            await page.close(1013, "the viewer does not answer; reload the page in a moment")
+            await page.close(
+                1013, close_reason(_("the viewer does not answer; reload the page in a moment"))
+            )
             return
         await pump_sockets(page, viser, pass_up(page, viser))
 

@@ -1,9 +1,10 @@
-"""Middleware that chooses the language of each page."""
+"""The language of each page: the middleware that chooses it, and responses of one sentence."""
 
 from starlette.datastructures import Headers
+from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from ai4u_edu.locale import language_of_page, reader
+from ai4u_edu.locale import language_of_page, reader, translate
 
 
 class ReaderLanguage:
@@ -23,3 +24,11 @@ class ReaderLanguage:
             return
         with reader(language_of_page(Headers(scope=scope).get("accept-language", ""))):
             await self._app(scope, receive, send)
+
+
+class TextResponse(PlainTextResponse):
+    """Plain text of one line, in the reader's language."""
+
+    def render(self, content: str) -> bytes:
+        """Return the line."""
+        return f"{translate(content)}\n".encode()

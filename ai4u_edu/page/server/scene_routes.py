@@ -10,8 +10,10 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from ai4u_edu.agent.block_errors import message_of
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.page.editing.sharing import SharedScene, shared_link
@@ -79,7 +81,7 @@ class OpenRequest(BaseModel):
     @model_validator(mode="after")
     def _check(self) -> Self:
         if sum(map(bool, (self.link, self.name, self.saved))) != 1:
-            raise ValueError("expected either a link, a name or the name of a saved scene")
+            raise ValueError(_("expected either a link, a name or the name of a saved scene"))
         return self
 
 
@@ -117,7 +119,7 @@ class SceneRoutes:
         try:
             link = await asyncio.to_thread(shared_link, scene, seed)
         except AI4UError as error:
-            raise HTTPException(409, str(error)) from None
+            raise HTTPException(409, translate(text_of(error))) from None
         return _json(
             LinkView(fragment=link.fragment, title=self._editor.title, needs=list(link.needs))
         )
@@ -144,11 +146,17 @@ class SceneRoutes:
                     await asyncio.wrap_future(self._runner.reset(shared.seed))
         except TimeoutError:
             stall = self._runner.stall
-            why = f"{stall.title} does not return" if stall else "the world does not answer"
+            why = (
+                _("{title} does not return", title=stall.title)
+                if stall
+                else _("the world does not answer")
+            )
             headers = {"Retry-After": str(RETRY_AFTER_S)}
-            raise HTTPException(503, f"the scene can't be opened now: {why}", headers) from None
+            raise HTTPException(
+                503, translate(_("the scene can't be opened now: {why}", why=why)), headers
+            ) from None
         except Exception as error:  # a student's block may raise anything
-            raise HTTPException(409, message_of(error)) from None
+            raise HTTPException(409, translate(message_of(error))) from None
         return _json(_view(shared))
 
     def _shared(self, link: str) -> SharedScene:
@@ -158,19 +166,21 @@ class SceneRoutes:
     def _saved(self, name: str) -> SharedScene:
         store = self._editor.scene_store
         if store is None:
-            raise HTTPException(404, "no scenes are saved here")
+            raise HTTPException(404, translate(_("no scenes are saved here")))
         return SharedScene(store.load(name), None)
 
     async def _read(self, read: Callable[[], SharedScene]) -> SharedScene:
         if self._waiting >= MAX_WAITING:
             headers = {"Retry-After": str(RETRY_AFTER_S)}
-            raise HTTPException(503, "too many scenes wait to be read; try again soon", headers)
+            raise HTTPException(
+                503, translate(_("too many scenes wait to be read; try again soon")), headers
+            )
         self._waiting += 1
         try:
             async with self._reading:
                 return await asyncio.to_thread(read)
         except AI4UError as error:
-            raise HTTPException(422, str(error)) from None
+            raise HTTPException(422, translate(text_of(error))) from None
         finally:
             self._waiting -= 1
 
@@ -178,7 +188,9 @@ class SceneRoutes:
 def _named(name: str) -> SharedScene:
     scene = load_by_name(name)
     if scene is None:
-        raise HTTPException(404, f"no scene is called {name[:80]!r}; see api/scenes")
+        raise HTTPException(
+            404, translate(_("no scene is called {name!r}; see api/scenes", name=name[:80]))
+        )
     return SharedScene(scene, None)
 
 

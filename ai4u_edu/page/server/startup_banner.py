@@ -6,6 +6,8 @@ import sys
 import webbrowser
 from urllib.parse import urlsplit
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join as joined
 from ai4u_edu.page.server.address import WILDCARD_HOSTS
 from ai4u_edu.page.server.host_origin import is_loopback
 from ai4u_edu.page.server.token_auth import with_token
@@ -29,16 +31,24 @@ def startup_banner(title: str, host: str, url: str, token: str) -> str:
     Other machines can reach it. Page, API and scripts are asked for the token in this address:
     give it only to those who may drive.
     """
-    lines = [f"{title} is served at {with_token(url, token)}  (Ctrl-C ends it)"]
+    lines: list[str] = [
+        _(
+            "{title} is served at {address}  (Ctrl-C ends it)",
+            title=title,
+            address=with_token(url, token),
+        )
+    ]
     if not is_loopback(host):
         if host in WILDCARD_HOSTS:
             others = f"http://{own_address()}:{urlsplit(url).port}/"
-            lines.append(f"from other machines: {with_token(others, token)}")
+            lines.append(_("from other machines: {address}", address=with_token(others, token)))
         lines.append(
-            "Other machines can reach it. Page, API and scripts are asked for the token in this "
-            "address:\ngive it only to those who may drive."
+            _(
+                "Other machines can reach it. Page, API and scripts are asked for the token "
+                "in this address:\ngive it only to those who may drive."
+            )
         )
-    return "\n".join(lines)
+    return joined(lines, "\n")
 
 
 def own_address() -> str:

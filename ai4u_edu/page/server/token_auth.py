@@ -12,21 +12,24 @@ from secrets import token_urlsafe
 from urllib.parse import quote, urlencode
 
 from starlette.requests import HTTPConnection
-from starlette.responses import PlainTextResponse, RedirectResponse, Response
+from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.host_origin import is_loopback
-from ai4u_edu.page.server.limits.attempts import TOO_MANY, AttemptResult, Attempts, client_address
+from ai4u_edu.page.server.limits.attempts import (
+    AttemptResult,
+    Attempts,
+    client_address,
+    too_many_text,
+)
 from ai4u_edu.page.server.limits.socket_close import NOT_ALLOWED, TRY_LATER, refuse_socket
+from ai4u_edu.page.server.reader_language import TextResponse
 from ai4u_edu.page.server.token_page import TokenPage, wants_page
 
 MIN_TOKEN_CHARS = 8
 """Length of a token that a person chooses."""
-REASON_401 = (
-    "expected this world's token, got {got}; open the address with ?token=... that its terminal "
-    "shows"
-)
 
 
 def token_for(host: str, wanted: str = "") -> str:
@@ -46,7 +49,11 @@ def token_for(host: str, wanted: str = "") -> str:
     """
     if wanted and len(wanted) < MIN_TOKEN_CHARS:
         raise SetupError(
-            f"--token: expected at least {MIN_TOKEN_CHARS} characters, got {len(wanted)}"
+            _(
+                "--token: expected at least {fewest} characters, got {n}",
+                fewest=MIN_TOKEN_CHARS,
+                n=len(wanted),
+            )
         )
     return wanted or ("" if is_loopback(host) else token_urlsafe(24))
 
@@ -167,14 +174,22 @@ class TokenAuth:
     ) -> None:
         is_limited = verdict is AttemptResult.TOO_MANY
         seconds = self._attempts.retry_after(client_address(scope)) or 1
-        why = REASON_401.format(got="another one" if _has_token(given) else "none")
+        why: str = _(
+            "expected this world's token, got none; open the address with ?token=... that its "
+            "terminal shows"
+        )
         if is_limited:
-            why = TOO_MANY.format(seconds=seconds)
+            why = too_many_text(seconds)
+        elif _has_token(given):
+            why = _(
+                "expected this world's token, got another one; open the address with ?token=... "
+                "that its terminal shows"
+            )
         if scope["type"] == "websocket":
             code = TRY_LATER if is_limited else NOT_ALLOWED
             await refuse_socket(scope, receive, send, code, why)
             return
-        response: Response = PlainTextResponse(f"token: {why}\n")
+        response: Response = TextResponse(_("token: {problem}", problem=why))
         if self._token_page and wants_page(given):
             response = self._token_page.response(
                 is_wrong=_has_token(given), wait_s=is_limited * seconds

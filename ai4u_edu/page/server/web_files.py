@@ -13,6 +13,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 
 # a system's own media types are not reliable: some call a .js plain text
 _MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
@@ -122,7 +123,10 @@ def web_folder() -> Path:
         if (folder / "page" / "main.js").is_file():
             return folder
     raise SetupError(
-        f"expected the page's files in {package / 'web'}, found none; install ai4u-edu again"
+        _(
+            "expected the page's files in {folder}, found none; install ai4u-edu again",
+            folder=str(package / "web"),
+        )
     )
 
 

@@ -20,8 +20,9 @@ from ai4u_edu.learn.training.settings import NO_REWARD
 from ai4u_edu.learn.training.sweep.plan import SweepPlan
 from ai4u_edu.learn.training.sweep.result import TrialResult, groups, ranked
 from ai4u_edu.learn.training.sweep.search_space import LEFT_OUT, text_of
+from ai4u_edu.locale import gettext as _
 
-TITLES = ("Learning curves", "Settings and results", "Without one reward term")
+TITLES = (_("Learning curves"), _("Settings and results"), _("Without one reward term"))
 COLOURS = {"sac": "blue", "ppo": "orange", "dqn": "green"}
 TERM_COLOURS = ("orange", "blue", "green", "vermillion", "purple", "sky blue", "yellow")
 MAX_TICK_LABELS = 8
@@ -116,13 +117,16 @@ def _plot_curves(results: Sequence[TrialResult], path: Path) -> None:
         named.add(algorithm)
     has_goal = checked[0].has_goal
     panel.set(
-        xlabel="decisions learned from", ylabel="success in a check" if has_goal else "reward"
+        xlabel=_("decisions learned from"), ylabel=_("success in a check") if has_goal else "reward"
     )
     if has_goal:
         panel.set_ylim(-0.03, 1.03)
     panel.set_xlim(left=0)
     panel.grid(alpha=0.3)
-    panel.set_title(f"best: trial {checked[0].number} (thick); pruned ones are dashed", fontsize=10)
+    panel.set_title(
+        _("best: trial {number} (thick); pruned ones are dashed", number=checked[0].number),
+        fontsize=10,
+    )
     for handle in panel.legend(fontsize="small").get_lines():
         handle.set(alpha=1.0, linewidth=1.5, linestyle="-", marker="")
     _save(figure, path)
@@ -176,12 +180,12 @@ def _plot_terms(results: Sequence[TrialResult], path: Path) -> None:
         curves = np.array([each.curve for each in members])[:, : len(xs)]
         for curve in curves:
             panel.plot(xs, curve, color=colour, alpha=0.35, linewidth=0.9)
-        label = "all terms" if term == NO_REWARD else f"without {term}"
+        label = _("all terms") if term == NO_REWARD else f"without {term}"
         panel.plot(xs, curves.mean(axis=0), color=colour, linewidth=2.6, marker=".", label=label)
     has_goal = next(iter(found.values()))[0].has_goal
     panel.set(
-        xlabel="decisions learned from",
-        ylabel="success in a check" if has_goal else "reward (all terms)",
+        xlabel=_("decisions learned from"),
+        ylabel=_("success in a check") if has_goal else _("reward (all terms)"),
     )
     if has_goal:
         panel.set_ylim(-0.03, 1.03)

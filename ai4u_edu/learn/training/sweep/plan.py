@@ -12,6 +12,7 @@ from ai4u_edu.games.jobs import Job
 from ai4u_edu.learn.training.settings import Algorithm, AlgorithmSettings, Settings
 from ai4u_edu.learn.training.sweep.search_space import Parameter, Value, changes_of, grid
 from ai4u_edu.learn.training.sweep.trial import CHECKS, trial
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.scene_data import scene_from
 
 FILE = "sweep.json"
@@ -141,7 +142,10 @@ class SweepPlan(BaseModel):
             f"{name}: {' or '.join(f'{each:,}' for each in sorted(seen))}"
             for name, seen in budgets.items()
         )
-        return f"Trials learn from different numbers of decisions, which is no fair race: {told}"
+        return _(
+            "Trials learn from different numbers of decisions, which is no fair race: {told}",
+            told=told,
+        )
 
     def check(self) -> None:
         """Check the settings before anything runs.
@@ -154,8 +158,11 @@ class SweepPlan(BaseModel):
         unlisted = [str(each) for each in self.parameters if each.is_range]
         if unlisted and not self.is_search:
             raise SetupError(
-                f"--set {unlisted[0]}: a range has too many values to try all; expected --trials, "
-                "the number of trials, or values as in NAME=0.001,0.01"
+                _(
+                    "--set {unlisted}: a range has too many values to try all; expected "
+                    "--trials, the number of trials, or values as in NAME=0.001,0.01",
+                    unlisted=unlisted[0],
+                )
             )
         for algorithm in self.algorithms:
             job = self.job(self._first_choice(algorithm))
@@ -179,10 +186,15 @@ class SweepPlan(BaseModel):
             return cls.model_validate_json(path.read_bytes())
         except OSError:
             raise SetupError(
-                f"{folder} holds no sweep; begin one with: ai4u-edu sweep SCENE --out {folder}"
+                _(
+                    "{folder} holds no sweep; begin one with: ai4u-edu sweep SCENE --out {folder}",
+                    folder=str(folder),
+                )
             ) from None
         except ValidationError as error:
-            raise SetupError(f"{path}: not as a sweep writes it: {error}") from None
+            raise SetupError(
+                _("{path}: not as a sweep writes it: {problem}", path=str(path), problem=str(error))
+            ) from None
 
     def difference(self, other: "SweepPlan") -> str:
         """Return the name of a part that differs; empty if one goes on where the other ended."""

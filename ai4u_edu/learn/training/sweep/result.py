@@ -16,6 +16,7 @@ from ai4u_edu.learn.training.run import Check
 from ai4u_edu.learn.training.sweep.plan import Choice
 from ai4u_edu.learn.training.sweep.search_space import text_of
 from ai4u_edu.learn.training.sweep.trial import curve_of, value_of
+from ai4u_edu.locale import gettext as _
 
 
 class _Told(BaseModel):
@@ -33,7 +34,7 @@ class _Told(BaseModel):
     def _check_numbers(cls, checks: tuple[Check, ...]) -> tuple[Check, ...]:
         numbers = [n for each in checks for n in (each.success, each.reward, each.length)]
         if not all(math.isfinite(each or 0.0) for each in numbers):
-            raise ValueError("expected finite numbers")
+            raise ValueError(_("expected finite numbers"))
         return checks
 
 
@@ -68,8 +69,12 @@ class TrialResult:
             network = base64.b64decode(told.network, validate=True)
         except ValueError as error:
             raise SetupError(
-                f"trial {number}: expected the result of a training, got {error}; the journal in "
-                "this folder is none of a sweep: choose another folder"
+                _(
+                    "trial {number}: expected the result of a training, got {problem}; the "
+                    "journal in this folder is none of a sweep: choose another folder",
+                    number=number,
+                    problem=str(error),
+                )
             ) from None
         return cls(
             number,

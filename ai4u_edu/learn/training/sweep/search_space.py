@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.settings import ALGORITHMS, Algorithm, Settings
+from ai4u_edu.locale import gettext as _
 
 FORMS = (
     "NAME=LOW..HIGH, NAME=LOW..HIGH:log, or NAME=VALUE,VALUE, as in learning_rate=1e-4..1e-2:log "
@@ -50,22 +51,29 @@ class Parameter(BaseModel):
         >>> rate.low, rate.high, rate.is_log, rate.is_whole
         (0.0001, 0.01, True, False)
         """
-        name, _, told = text.partition("=")
+        name, _sign, told = text.partition("=")
         name, told = name.strip(), told.strip()
         if not re.fullmatch(r"(\w+\.)?\w+", name) or not told:
-            raise SetupError(f"--set: expected {FORMS}; got {text!r}")
+            raise SetupError(_("--set: expected {forms}; got {text!r}", forms=FORMS, text=text))
         if name.rpartition(".")[2] == "steps":
-            raise SetupError(f"--set {text}: the number of decisions is set by --steps")
+            raise SetupError(
+                _("--set {text}: the number of decisions is set by --steps", text=text)
+            )
         algorithm = name.partition(".")[0] if "." in name else ""
         if algorithm and algorithm not in ALGORITHMS:
             raise SetupError(
-                f"--set {text}: expected one of {', '.join(ALGORITHMS)} before the point, got "
-                f"{algorithm!r}"
+                _(
+                    "--set {text}: expected one of {algorithms} before the point, got "
+                    "{algorithm!r}",
+                    text=text,
+                    algorithms=", ".join(ALGORITHMS),
+                    algorithm=algorithm,
+                )
             )
         if ".." not in told:
             return cls(name=name, values=tuple(_value(each) for each in told.split(",")))
-        ends, _, scale = told.partition(":")
-        low, _, high = ends.partition("..")
+        ends, _sign, scale = told.partition(":")
+        low, _sign, high = ends.partition("..")
         try:
             found = cls(
                 name=name,
@@ -75,12 +83,17 @@ class Parameter(BaseModel):
                 is_whole=all(re.fullmatch(r"-?\d+", end) for end in (low, high)),
             )
         except ValueError:
-            raise SetupError(f"--set: expected {FORMS}; got {text!r}") from None
+            raise SetupError(
+                _("--set: expected {forms}; got {text!r}", forms=FORMS, text=text)
+            ) from None
         is_log_of_positive = scale == "log" and found.low > 0
         if not found.low < found.high or not (scale == "" or is_log_of_positive):
             raise SetupError(
-                f"--set {text}: expected a smaller number, then a larger one, and with :log both "
-                "above 0"
+                _(
+                    "--set {text}: expected a smaller number, then a larger one, and with :log "
+                    "both above 0",
+                    text=text,
+                )
             )
         return found
 

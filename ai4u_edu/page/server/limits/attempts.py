@@ -7,11 +7,12 @@ from collections import OrderedDict
 from collections.abc import Awaitable, Callable
 from enum import Enum, auto
 
-from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.connections import address_of
 from ai4u_edu.page.server.limits.rate_limit import MAX_KEYS, RateLimits
+from ai4u_edu.page.server.reader_language import TextResponse
 
 MAX_WRONG = 60
 """Wrong secrets in a row after which an address is limited."""
@@ -28,7 +29,6 @@ CODE_TURNS_PER_S = 20.0
 try all codes."""
 MAX_CODE_WAIT_S = 60.0
 """Longest wait for a turn; codes that would wait longer are refused unchecked."""
-TOO_MANY = "too many wrong tokens from this address; try again in {seconds} s"
 
 
 class AttemptResult(Enum):
@@ -181,11 +181,15 @@ def client_address(scope: Scope) -> str:
     return address_of(scope.get("client"))
 
 
-def too_many(seconds: int) -> PlainTextResponse:
+def too_many_text(seconds: int) -> str:
+    """Return the sentence for an address that has sent too many wrong tokens."""
+    return _("too many wrong tokens from this address; try again in {seconds} s", seconds=seconds)
+
+
+def too_many(seconds: int) -> TextResponse:
     """Return the answer to an address that has sent too many wrong tokens."""
-    text = TOO_MANY.format(seconds=seconds)
     headers = {"Retry-After": str(seconds), "Cache-Control": "no-store"}
-    return PlainTextResponse(f"token: {text}\n", 429, headers)
+    return TextResponse(_("token: {problem}", problem=too_many_text(seconds)), 429, headers)
 
 
 def _wrong_secrets(clock: Callable[[], float]) -> RateLimits:

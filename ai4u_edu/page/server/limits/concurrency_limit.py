@@ -5,12 +5,13 @@ from collections import defaultdict
 from collections.abc import AsyncIterator, Hashable
 from contextlib import asynccontextmanager, suppress
 
-from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.connections import max_connections
 from ai4u_edu.page.server.limits.socket_close import TRY_LATER, close_reason
+from ai4u_edu.page.server.reader_language import TextResponse
 
 RETRY_AFTER_S = 5
 
@@ -34,7 +35,7 @@ class ConcurrencyLimit:
     """
 
     def __init__(
-        self, per_holder: int, share: float, life_s: float | None = None, what: str = "sockets"
+        self, per_holder: int, share: float, life_s: float | None = None, what: str = _("sockets")
     ) -> None:
         self._per_holder, self._share = per_holder, share
         self._life_s, self._what = life_s, what
@@ -52,11 +53,15 @@ class ConcurrencyLimit:
         """
         if len(self._open.get(holder, ())) >= self._per_holder:
             raise TooManyOpenError(
-                f"expected at most {self._per_holder} open {self._what} of one student or "
-                "network, got another one; close some pages"
+                _(
+                    "expected at most {per_holder} open {what} of one student or network, got "
+                    "another one; close some pages",
+                    per_holder=self._per_holder,
+                    what=self._what,
+                )
             )
         if not self._has_room_for(holder):
-            raise TooManyOpenError(f"too many {self._what} are open; try again later")
+            raise TooManyOpenError(_("too many {what} are open; try again later", what=self._what))
         try:
             async with asyncio.timeout(self._life_s) as timer:
                 self._open[holder].append(timer)
@@ -68,7 +73,10 @@ class ConcurrencyLimit:
             if not timer.expired():
                 raise
             raise TooManyOpenError(
-                f"too many {self._what} are open, or this one was for too long; try again later"
+                _(
+                    "too many {what} are open, or this one was for too long; try again later",
+                    what=self._what,
+                )
             ) from None
 
     async def serve(
@@ -87,11 +95,11 @@ class ConcurrencyLimit:
         except TooManyOpenError as error:
             if "websocket.accept" in sent:
                 with suppress(RuntimeError, OSError):  # it is closed already
-                    reason = close_reason(str(error))
+                    reason = close_reason(text_of(error))
                     await send({"type": "websocket.close", "code": TRY_LATER, "reason": reason})
             elif not sent:
                 headers = {"Retry-After": str(RETRY_AFTER_S), "Cache-Control": "no-store"}
-                await PlainTextResponse(f"{error}\n", 503, headers)(scope, receive, send)
+                await TextResponse(text_of(error), 503, headers)(scope, receive, send)
             # else the answer is cut off, which its client sees by its length
 
     def _has_room_for(self, holder: Hashable) -> bool:

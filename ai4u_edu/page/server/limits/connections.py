@@ -11,6 +11,8 @@ import sys
 from asyncio import Transport
 from typing import Any
 
+from ai4u_edu.locale import gettext as _
+
 MAX_PER_ADDRESS = 120
 """Limit for one address. Each page has two connections, and a few more while it loads."""
 MAX_CONNECTIONS = 1000
@@ -72,12 +74,17 @@ class Connections:
         address = address_of(peer)
         is_full = self._by_address.get(address, 0) >= self.per_address
         if is_full and address != THIS_MACHINE and not self._evict(address):
-            return (
-                f"expected at most {self.per_address} connections from one address, got another "
-                f"one from {address}; close some pages, or start with --connections N"
+            return _(
+                "expected at most {per_address} connections from one address, got another "
+                "one from {address}; close some pages, or start with --connections N",
+                per_address=self.per_address,
+                address=address,
             )
         if len(self._connections) - self.evicting >= self.limit and not self._evict():
-            return f"expected at most {self.limit} connections, got another one; try again later"
+            return _(
+                "expected at most {limit} connections, got another one; try again later",
+                limit=self.limit,
+            )
         self._connections[descriptor] = _Connection(address)
         self._starting.add(descriptor)
         self._by_address[address] = self._by_address.get(address, 0) + 1

@@ -6,6 +6,9 @@ from pydantic import BaseModel, ValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
+
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -25,12 +28,17 @@ async def read_json(request: Request, model: type[Model], max_bytes: int) -> Mod
     """
     kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if kind != "application/json":
-        raise HTTPException(415, f"Content-Type: expected application/json, got {kind[:80]!r}")
+        raise HTTPException(
+            415,
+            translate(_("Content-Type: expected application/json, got {kind!r}", kind=kind[:80])),
+        )
     data = b""
     async for part in request.stream():
         data += part
         if len(data) > max_bytes:
-            raise HTTPException(413, f"expected a body of at most {max_bytes} bytes")
+            raise HTTPException(
+                413, translate(_("expected a body of at most {most} bytes", most=max_bytes))
+            )
     try:
         return model.model_validate_json(data)
     except ValidationError as error:

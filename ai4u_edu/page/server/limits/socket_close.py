@@ -3,6 +3,8 @@
 from starlette.types import Receive, Scope, Send
 from starlette.websockets import WebSocket
 
+from ai4u_edu.locale import translate
+
 NOT_ALLOWED = 1008
 """Code of a close: the same request would be refused again."""
 TRY_LATER = 1013
@@ -11,12 +13,12 @@ _MAX_REASON_BYTES = 123
 
 
 def close_reason(text: str) -> str:
-    """Return a text as the reason of a close, which has at most 123 bytes.
+    """Return a text in the reader's language as the reason of a close, of at most 123 bytes.
 
     >>> len(close_reason("é" * 100))
     61
     """
-    return text.encode()[:_MAX_REASON_BYTES].decode(errors="ignore")
+    return translate(text).encode()[:_MAX_REASON_BYTES].decode(errors="ignore")
 
 
 async def refuse_socket(scope: Scope, receive: Receive, send: Send, code: int, reason: str) -> None:

@@ -8,6 +8,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.loop_queue import LoopQueue
 from ai4u_edu.page.server.scripts.outbox import Outbox
 from ai4u_edu.page.server.scripts.report import ScriptLog
@@ -111,18 +112,20 @@ class AgentLease:
             self.release(str(refusal))
             raise
         except (AI4UError, asyncio.CancelledError) as error:
-            self.release("it could not be taken")
+            self.release(_("it could not be taken"))
             raise RefusalError("ended", f"the agent can't be taken now ({error})") from None
         finally:
             self.claimed.set()
-        self._report.note_event(f"a script drives agent {self.agent.id!r} ({self._hello.mode})")
+        self._report.note_event(
+            _("a script drives agent {id!r} ({mode})", id=self.agent.id, mode=self._hello.mode)
+        )
 
     def attach(self, outbox: Outbox) -> None:
         """Use this connection to the script from now on."""
         self._stop_timers()
         if self._is_lost:
             self._is_lost = False
-            self._report.note_event(f"the script of agent {self.agent.id!r} is back")
+            self._report.note_event(_("the script of agent {id!r} is back", id=self.agent.id))
         if self._brain is not None:
             self._brain.on_missing = self._on_missing or "hold"
         outbox.send(self.welcome)
@@ -136,7 +139,7 @@ class AgentLease:
         call_later = asyncio.get_running_loop().call_later
         self._timers = [
             call_later(SHORT_DROP_S, self._mark_lost),
-            call_later(self._rules.grace, self.release, "the script did not come back"),
+            call_later(self._rules.grace, self.release, _("the script did not come back")),
         ]
 
     def release(self, reason: str) -> None:
@@ -150,7 +153,9 @@ class AgentLease:
         self._runner.submit(self._restore_brain)
         self._on_released(self)
         if self._brain is not None:
-            self._report.note_event(f"the script of agent {self.agent.id!r} has left: {reason}")
+            self._report.note_event(
+                _("the script of agent {id!r} has left: {reason}", id=self.agent.id, reason=reason)
+            )
 
     # -- in the runner's thread ------------------------------------------------------------------
 
@@ -219,15 +224,20 @@ class AgentLease:
         if self._brain is not None:
             self._brain.on_missing = self._on_missing or "stop"  # nobody supervises the last action
         self._is_lost = True
-        kept = f"the agent is kept for it for {self._rules.grace:g} s"
-        self._report.note_event(f"the script of agent {self.agent.id!r} is lost; {kept}")
+        kept = _("the agent is kept for it for {grace:g} s", grace=self._rules.grace)
+        self._report.note_event(
+            _("the script of agent {id!r} is lost; {kept}", id=self.agent.id, kept=kept)
+        )
         is_waited_for = self._hello.mode == "lockstep"
-        reason = f"the script's connection is lost; {kept}"
+        reason = _("the script's connection is lost; {kept}", kept=kept)
         self.session.mark_lost(reason, is_waited_for=is_waited_for)
 
     def _report_mistake(self, reason: str) -> None:
-        script = f"the script of agent {self.agent.id!r}"
-        self._report.note_mistake(self.agent.id, f"{script} sent what has no effect: {reason}")
+        script = _("the script of agent {id!r}", id=self.agent.id)
+        self._report.note_mistake(
+            self.agent.id,
+            _("{script} sent what has no effect: {reason}", script=script, reason=reason),
+        )
 
     def _stop_timers(self) -> None:
         for timer in self._timers:

@@ -11,6 +11,8 @@ from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.log_limit import LogLimiter
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, translate
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.runtime.runner import Runner
 
@@ -93,14 +95,18 @@ class ScriptReport:
         with self._lock:
             has_token = self._events.take_within() is not None
         if has_token:
-            self._put(_plain(text))
+            self._put(_plain(translate(text)))
 
     def note_mistake(self, kind: str, text: str) -> None:
         """Write a line, and only a count of further ones of its kind for some time."""
         left_out = self._mistakes.admit(kind)
         if left_out is not None:
-            more = f" ({left_out} more since the last such line)" if left_out else ""
-            self._put(_plain(text) + more)
+            more = (
+                _("({left_out} more since the last such line)", left_out=left_out)
+                if left_out
+                else ""
+            )
+            self._put(_plain(translate(join([text, more]) if more else text)))
 
     def _put(self, line: str) -> None:
         # lose a line rather than block the caller, which may be the server's event loop
@@ -133,17 +139,24 @@ class ScriptReport:
     def _compare(self, agent_id: str, before: RemoteStatus | None, now: RemoteStatus) -> None:
         was, is_now = before.state if before else "waiting", now.state
         is_here = is_now in ("connected", "late")
-        script = f"the AI4U script of agent {agent_id!r}"
+        script = _("the AI4U script of agent {agent_id!r}", agent_id=agent_id)
         if is_here and was == "waiting":
-            self.note_event(f"an AI4U script drives agent {agent_id!r}")
+            self.note_event(_("an AI4U script drives agent {agent_id!r}", agent_id=agent_id))
         elif is_here and was == "lost":
-            self.note_event(f"{script} is back")
+            self.note_event(_("{script} is back", script=script))
         elif is_now == "lost" != was:
-            self.note_event(f"{script} is lost: {now.reason}")
+            self.note_event(_("{script} is lost: {reason}", script=script, reason=now.reason))
         elif is_now == "waiting" != was:
-            self.note_event(f"{script} has left: {now.reason}")
+            self.note_event(_("{script} has left: {reason}", script=script, reason=now.reason))
         if now.warnings > (before.warnings if before else 0):
-            self.note_mistake(agent_id, f"{script} sent what has no effect: {now.warning}")
+            self.note_mistake(
+                agent_id,
+                _(
+                    "{script} sent what has no effect: {warning}",
+                    script=script,
+                    warning=now.warning,
+                ),
+            )
 
 
 def _plain(text: str) -> str:
