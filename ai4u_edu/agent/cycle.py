@@ -313,8 +313,11 @@ class ControlRequestor:
     def set_state(self, state: SimState) -> None:
         """Go on from the state of another world of the same scene.
 
-        Contacts are found again by the physics, so what touches something then moves on a little
-        differently (by rounding) than in the other world. A brain keeps its own state if it is of
+        It goes on bit for bit as the other world does, also where a body presses on another one.
+        Where a body presses on several others, the physics may take them in another order: they
+        begin less than a centimetre apart, and may part further. Joints to what is held begin
+        without their forces of the last tick, and so do all contacts if the state is a
+        snapshot's or pymunk is not of a tested version. A brain keeps its own state if it is of
         another class, and so does an agent that the other world does not have.
         """
         self.reset(state.world.seed, state.options)

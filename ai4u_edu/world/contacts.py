@@ -4,12 +4,19 @@ Only watched bodies (those of agents) and bodies that are not at height 0 on the
 callbacks, so a pile of boxes that no block asks about costs nothing.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import pymunk
 
 from ai4u_edu.world.body import Body
+from ai4u_edu.world.native import (
+    Impulses,
+    contact_impulses,
+    push_of,
+    set_contact_impulses,
+    set_push,
+)
 
 UNWATCHED, WATCHED, RAISED = 0, 1, 2
 """Collision types: no callbacks; begin and separate; also one at every tick, to compare heights."""
@@ -18,8 +25,24 @@ TOUCH_GAP_M = 1e-6
 """Bodies with a smaller vertical gap than this (metres) touch."""
 
 
+Part = tuple[str, int]
+"""Name of a body, and the number of one of its shapes."""
+
+
+class PressState(NamedTuple):
+    """The forces between bodies that the physics keeps of a tick for the next one."""
+
+    impulses: Mapping[tuple[Part, Part], Impulses]
+    """Impulses at the contact points of shapes that touch."""
+    pushes: Mapping[str, tuple[float, float, float]]
+    """Velocities (m/s, m/s, rad/s) that move bodies out of others in the next tick, by name."""
+
+
+NO_PRESSES = PressState({}, {})
+
+
 class ContactState(NamedTuple):
-    """Contacts of watched bodies, by names."""
+    """Contacts of watched bodies by names, and the forces between all bodies."""
 
     touching: dict[str, tuple[str, ...]]
     """The bodies that each body touches, in the order of first touch."""
@@ -27,6 +50,8 @@ class ContactState(NamedTuple):
     """The last tick of each contact that has ended."""
     begun: dict[str, int]
     """Contacts of each body that have begun."""
+    presses: PressState
+    """Empty if nothing touches, in snapshots, and with a pymunk of another version."""
 
 
 class Contacts:
@@ -60,23 +85,73 @@ class Contacts:
         space.on_collision(WATCHED, None, begin=compare, separate=separate)
         space.on_collision(RAISED, None, begin=compare, pre_solve=compare, separate=separate)
 
-    def get_state(self) -> ContactState:
-        """Return the contacts of watched bodies."""
+    def get_state(self, *, with_presses: bool = True) -> ContactState:
+        """Return the contacts of watched bodies, and the forces between all bodies."""
         touching = {name: tuple(others) for name, others in self._touching.items()}
-        return ContactState(touching, dict(self._last), dict(self._begun))
+        presses = self._get_presses() if with_presses else NO_PRESSES
+        return ContactState(touching, dict(self._last), dict(self._begun), presses)
 
-    def set_state(self, state: ContactState) -> None:
+    def set_state(self, state: ContactState, step: Callable[[], None]) -> None:
         """Take over the contacts of another copy of this world, whose bodies stand alike.
 
         A new space reports contacts with its first step. One that ends in that very step it never
         reports, so that :meth:`settle` ends it.
+
+        Args:
+            state: of the other copy.
+            step: steps the space.
         """
+        if state.presses.impulses:
+            self._set_presses(state.presses, step)
+        reported = {(name, other) for name, others in self._touching.items() for other in others}
         self._touching = {name: dict.fromkeys(names) for name, names in state.touching.items()}
         self._last, self._begun = dict(state.last), dict(state.begun)
         self._unconfirmed = {
-            (name, other): None for name, others in self._touching.items() for other in others
+            (name, other): None
+            for name, others in self._touching.items()
+            for other in others
+            if (name, other) not in reported
         }
         self.has_news = bool(self._unconfirmed)
+
+    def _get_presses(self) -> PressState:
+        impulses = contact_impulses(self._space) if self._space is not None else {}
+        if not impulses:
+            return NO_PRESSES
+        bodies = dict.fromkeys(self._owners[shape] for pair in impulses for shape in pair)
+        return PressState(
+            {(self._part(a), self._part(b)): values for (a, b), values in impulses.items()},
+            {body.name: push_of(body._pm) for body in bodies},
+        )
+
+    def _set_presses(self, state: PressState, step: Callable[[], None]) -> None:
+        """Let bodies press on each other as in another copy of this world.
+
+        A step in which nothing moves lets the space find the contacts, which it then keeps.
+        """
+        owners = self._owners.values()
+        movers = {body.name: body for body in owners if body.description.kind != "static"}
+        motions = {
+            name: (body._pm.velocity, body._pm.angular_velocity) for name, body in movers.items()
+        }
+        for body in movers.values():
+            body._pm.velocity, body._pm.angular_velocity = (0.0, 0.0), 0.0
+        step()
+        shapes = {self._part(shape): shape for shape in self._owners}
+        impulses = {
+            frozenset((shapes[a], shapes[b])): values
+            for (a, b), values in state.impulses.items()
+            if a in shapes and b in shapes
+        }
+        if self._space is not None:
+            set_contact_impulses(self._space, impulses)
+        for name, body in movers.items():
+            body._pm.velocity, body._pm.angular_velocity = motions[name]
+            set_push(body._pm, state.pushes.get(name, (0.0, 0.0, 0.0)))
+
+    def _part(self, shape: pymunk.Shape) -> Part:
+        body = self._owners[shape]
+        return body.name, body._shapes.index(shape)
 
     def settle(self) -> None:
         """Finish a tick: end contacts that were taken over and are none, and raise an error.

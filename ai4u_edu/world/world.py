@@ -418,7 +418,7 @@ class World(NoStrayAttributes):
         """Return everything that changes while the world runs; call it between two ticks.
 
         Args:
-            with_motions: False leaves out the bodies' motions, which take most of the time.
+            with_motions: False leaves out motions and presses, which take most of the time.
         """
         bodies = self._registry.bodies
         holders = bodies.values() if self.space.constraints else ()
@@ -430,7 +430,7 @@ class World(NoStrayAttributes):
             sampled={
                 body.name: body.sampled for body in bodies.values() if body.description.random
             },
-            contacts=self.contacts.get_state(),
+            contacts=self.contacts.get_state(with_presses=with_motions),
             ink=self.ink.image(),
             messages=self.messages.get_state(),
             motions={name: _motion(body) for name, body in bodies.items()} if with_motions else {},
@@ -451,13 +451,13 @@ class World(NoStrayAttributes):
         for name, motion in state.motions.items():
             if name in bodies:
                 self._set_motion(name, motion)
+        self.contacts.set_state(state.contacts, self._physics.step)
         for holder, held in state.held:
             if holder in bodies and held in bodies:
                 bodies[holder].hold(bodies[held])
         self.contacts.tick = state.ticks
         self.ink.set_image(state.ink)
         self.messages.set_state(state.messages)
-        self.contacts.set_state(state.contacts)
         self.seeds.set_state(state.generators)
 
     def _place_as(self, name: str, sampled: BodyDescription) -> None:

@@ -10,7 +10,17 @@ import numpy as np
 import pytest
 from gymnasium.spaces import Discrete
 
-from ai4u_edu import BasicAgent, Controller, LocalBrain, Scene
+from ai4u_edu import (
+    BasicAgent,
+    BoxShape,
+    CircleShape,
+    Controller,
+    LocalBrain,
+    PositionSensor,
+    RBMoveActuator,
+    Scene,
+    World,
+)
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import Keyboard, Percept
 from ai4u_edu.blocks.agent_view import AgentView
@@ -164,3 +174,84 @@ def test_what_touches_goes_on_and_ends_in_a_copy() -> None:
     copy.world.tick()
     copy.world.tick()
     assert copy.world.contacts.of("robot") == ()
+
+
+def pressing(*boxes: tuple[float, float]) -> ControlRequestor:
+    """Return a world whose robot drives into a wall, or pushes boxes against it."""
+    world = World(seed=1)
+    world.add_floor("plate", BoxShape(size=(12, 12)))
+    world.add_body("robot", CircleShape(radius=0.5), position=(-2, 0.1))
+    world.add_body("wall", BoxShape(size=(0.5, 8)), position=(3, 0), kind="static")
+    for number, place in enumerate(boxes):
+        world.add_body(f"box {number}", BoxShape(size=(1, 1)), position=place)
+    agent = BasicAgent(
+        body="robot",
+        sensors=[PositionSensor()],
+        actuators=[RBMoveActuator(move_amount=2, turn_amount=2)],
+        brains=[LocalBrain(controller=lambda _: {"move": [1, 0.1, 0, 0]})],
+    )
+    return ControlRequestor(world, [agent])
+
+
+def straight() -> LocalBrain:
+    """Return a brain that drives straight ahead."""
+    return LocalBrain(controller=lambda _: {"move": [1, 0, 0, 0]})
+
+
+def apart(sim: ControlRequestor, copy: ControlRequestor, ticks: int) -> float:
+    """Return the largest distance (m, rad) of a body from itself in a copy, in so many ticks."""
+    largest = 0.0
+    for _ in range(ticks):
+        sim.tick()
+        copy.tick()
+        for name, body in sim.world.bodies.items():
+            pairs = zip(body.pose, copy.world[name].pose, strict=True)
+            largest = max(largest, *(abs(mine - its) for mine, its in pairs))
+    return largest
+
+
+@pytest.mark.parametrize("ticks", [90, 130, 177, 240])
+def test_what_presses_on_something_goes_on_bit_for_bit_in_a_copy(ticks: int) -> None:
+    sim, copy = pressing(), pressing()
+    sim.reset(1)
+    for _ in range(ticks):
+        sim.tick()
+    copy.set_state(sim.get_state())
+    assert apart(sim, copy, 600) == 0.0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_many_robots_at_walls_go_on_bit_for_bit_in_a_copy(seed: int) -> None:
+    sim, copy = (Scene.load("ants").build(brains=lambda _: straight()) for _ in range(2))
+    sim.reset(seed)
+    for _ in range(300):
+        sim.tick()
+    assert any(sim.world.contacts.of(agent.body_name) for agent in sim.agents)
+    copy.set_state(sim.get_state())
+    assert apart(sim, copy, 600) == 0.0
+
+
+@pytest.mark.parametrize("boxes", [[(1, 0)], [(1, 0), (2.1, 0.1)]])
+@pytest.mark.parametrize("ticks", [90, 130, 177, 240])
+def test_a_chain_of_bodies_that_press_begins_within_a_centimetre_in_a_copy(
+    boxes: list[tuple[float, float]], ticks: int
+) -> None:
+    sim, copy = pressing(*boxes), pressing(*boxes)
+    sim.reset(1)
+    for _ in range(ticks):
+        sim.tick()
+    copy.set_state(sim.get_state())
+    assert apart(sim, copy, 2) < 0.01
+
+
+def test_a_body_that_was_put_back_presses_on_as_before_in_a_copy() -> None:
+    sim, copy = pressing(), pressing()
+    sim.reset(1)
+    for _ in range(30):
+        sim.tick()
+    sim.world.put_back("robot")
+    for _ in range(177):
+        sim.tick()
+    assert sim.world.contacts.of("robot") == ("wall",)
+    copy.set_state(sim.get_state())
+    assert apart(sim, copy, 600) == 0.0

@@ -18,7 +18,15 @@ from ai4u_edu.world import WorldView
 
 pytestmark = pytest.mark.slow
 
-SCENES = ("draw_figure", "ants", "call", "printed_track", "endless_line", "endless_maze")
+SCENES = (
+    "draw_figure",
+    "ants",
+    "call",
+    "printed_track",
+    "endless_line",
+    "endless_maze",
+    "endless_rescue",
+)
 DECISIONS, EARLY = 60, 15
 Moment = tuple[Any, ...]
 
@@ -126,15 +134,9 @@ def test_who_goes_on_from_the_past_begins_with_its_ink_and_messages(name: str) -
 @pytest.mark.parametrize("name", SCENES)
 def test_a_clone_goes_on_bit_for_bit(name: str) -> None:
     sim, copy = built(name), built(name)
-    for seed in range(1, 30):
-        sim.reset(seed)
-        for _ in range(EARLY):
-            sim.step(sim.agents[0])
-        # what presses on a wall goes on a hair apart in a copy: the engine keeps its impulses
-        if not any(sim.world.contacts.of(agent.body.name) for agent in sim.agents):
-            break
-    else:
-        pytest.fail("in each start somebody touches something")
+    sim.reset(9)
+    for _ in range(EARLY):
+        sim.step(sim.agents[0])
     copy.set_state(sim.get_state())
     assert now(copy) == now(sim)
     for _ in range(DECISIONS):

@@ -2,14 +2,20 @@
 
 Everything here has a twin in pymunk's public API that gives the same bits. The twin is used where
 pymunk is not of the expected version, and for the ray loops where the package was built without a
-C compiler.
+C compiler. Only impulses of contacts have none: without them a copy of a world in which bodies
+press on each other goes on a little differently.
 """
 
 from ai4u_edu.world.native.chipmunk import (
     IS_NATIVE,
     MOTION,
+    Impulses,
     contact_distances,
+    contact_impulses,
+    push_of,
     release_space,
+    set_contact_impulses,
+    set_push,
     shape_key,
     step_function,
 )
@@ -25,12 +31,17 @@ __all__ = [
     "FastCircle",
     "FastPoly",
     "GridArrays",
+    "Impulses",
     "Segments",
     "compile_grid",
     "contact_distances",
+    "contact_impulses",
     "is_compiled",
     "make_segments",
+    "push_of",
     "release_space",
+    "set_contact_impulses",
+    "set_push",
     "shape_key",
     "step_function",
 ]

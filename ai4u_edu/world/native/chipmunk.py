@@ -1,8 +1,8 @@
 """Motion of bodies and steps of a space through pymunk's cffi layer."""
 
 import ctypes
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Mapping
+from functools import cache, partial
 from operator import attrgetter
 from typing import Any, NamedTuple
 
@@ -28,6 +28,9 @@ _FUNCTIONS = (
     "cpSpaceSegmentQueryFirst",
     "cpSpaceStep",
 )
+_ARBITER_FUNCTIONS = ("cpSpaceEachCachedArbiter", "ext_cpArbiterIteratorFunc")
+_APART = 3
+"""State of an arbiter whose shapes don't touch any more."""
 
 
 def _is_known() -> bool:
@@ -123,6 +126,92 @@ def release_space(space: pymunk.Space) -> None:
     for handler in getattr(space, "_handlers", {}).values():
         handler.separate = None  # it would still be called for bodies that touch at the end
         handler._space = None
+
+
+_PUSH = slice(24, 27)
+"""Place of a body's push in Chipmunk's struct of a body, which is made of numbers of 8 bytes."""
+
+Impulses = tuple[tuple[int, float, float], ...]
+"""Number of each contact point of two shapes, and its impulses (N s) along and across."""
+
+
+def contact_impulses(space: pymunk.Space) -> dict[tuple[pymunk.Shape, pymunk.Shape], Impulses]:
+    """Return the impulses with which shapes pressed on each other in the last step.
+
+    The next step's solver begins with them. Empty where Chipmunk's private layer is not known.
+    """
+    if not _knows_pushes():
+        return {}
+    arbiters = [each for each in space._get_arbiters() if each.count and each.state != _APART]
+    if not arbiters:
+        return {}
+    shapes = {shape._shape: shape for shape in space.shapes}
+    return {
+        (shapes[arbiter.a], shapes[arbiter.b]): tuple(
+            (int(point.hash), point.jnAcc, point.jtAcc)
+            for point in arbiter.contacts[0 : arbiter.count]
+        )
+        for arbiter in arbiters
+    }
+
+
+def set_contact_impulses(
+    space: pymunk.Space, impulses: Mapping[frozenset[pymunk.Shape], Impulses]
+) -> None:
+    """Replace the impulses of shapes that touched in the last step.
+
+    Args:
+        space: has just done a step in which the same shapes touched.
+        impulses: by pairs of shapes, as :func:`contact_impulses` has them.
+    """
+    shapes = {shape._shape: shape for shape in space.shapes}
+    for arbiter in space._get_arbiters():
+        known = impulses.get(frozenset((shapes[arbiter.a], shapes[arbiter.b])), ())
+        by_number = {number: values for number, *values in known}
+        for index in range(arbiter.count):
+            point = arbiter.contacts[index]
+            values = by_number.get(int(point.hash))
+            if values is None and len(known) == arbiter.count:
+                values = [*known[index][1:]]  # a body that was added again has other numbers
+            point.jnAcc, point.jtAcc = values or (0.0, 0.0)
+
+
+def push_of(pm: pymunk.Body) -> tuple[float, float, float]:
+    """Return the velocity (m/s, m/s, rad/s) that moves a body out of others in the next step."""
+    x, y, turn = ffi.unpack(_numbers(pm) + _PUSH.start, _PUSH.stop - _PUSH.start)
+    return x, y, turn
+
+
+def set_push(pm: pymunk.Body, push: tuple[float, float, float]) -> None:
+    """Set the velocity that moves a body out of others in the next step."""
+    _numbers(pm)[_PUSH] = push
+
+
+def _numbers(pm: pymunk.Body) -> Any:
+    return ffi.cast("double *", pm._body)
+
+
+@cache
+def _knows_pushes() -> bool:
+    """Return True if pushes are where they should be in Chipmunk's private structs."""
+    if not (IS_NATIVE and all(hasattr(lib, name) for name in _ARBITER_FUNCTIONS)):
+        return False
+    if ffi.sizeof("cpArbiter") != 184 or ffi.sizeof("struct cpContact") != 96:
+        return False
+    space, bodies = pymunk.Space(), [pymunk.Body(1, 1), pymunk.Body(2, 3)]
+    for number, pm in enumerate(bodies):
+        pm.position = 0.25 * number, 0.5 * number
+        space.add(pm, pymunk.Poly.create_box(pm))
+    space.step(0.25)
+    (x, y), turn, push = bodies[1].position, bodies[1].angle, push_of(bodies[1])
+    (vx, vy), omega = bodies[1].velocity, bodies[1].angular_velocity
+    space.step(0.25)
+    expected = (
+        x + (vx + push[0]) * 0.25,
+        y + (vy + push[1]) * 0.25,
+        turn + (omega + push[2]) * 0.25,
+    )
+    return any(push) and (*bodies[1].position, bodies[1].angle) == expected
 
 
 def contact_distances(
