@@ -32,7 +32,8 @@ SPOT_RADIUS_M = 0.06
 """Radius of a point that a sensor reads."""
 
 
-_INK_RGBA = np.array([(0, 0, 0, 0)] + [(*rgb(each), 255) for each in INK_COLOURS], np.uint8)
+INK_RGBA = np.array([(0, 0, 0, 0)] + [(*rgb(each), 255) for each in INK_COLOURS], np.uint8)
+"""Red, green, blue and opacity of ink by its code."""
 
 
 def ink_pixels(tile: Tile) -> npt.NDArray[np.uint8]:
@@ -41,7 +42,7 @@ def ink_pixels(tile: Tile) -> npt.NDArray[np.uint8]:
     Returns:
         (rows, columns, 4): red, green, blue, opacity.
     """
-    pixels: npt.NDArray[np.uint8] = _INK_RGBA[tile[::-1]]
+    pixels: npt.NDArray[np.uint8] = INK_RGBA[tile[::-1]]
     return pixels
 
 

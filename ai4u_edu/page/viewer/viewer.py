@@ -13,7 +13,12 @@ from ai4u_edu.page.viewer.scene.arena import camera_bounds
 from ai4u_edu.page.viewer.scene.bodies import Bodies, RobotMotion
 from ai4u_edu.page.viewer.scene.framing import FIELD_OF_VIEW_RAD, frame_arena
 from ai4u_edu.page.viewer.scene.ghost_bodies import GhostBodies
-from ai4u_edu.page.viewer.scene.ground import DrawnGround, DrawnInk, DrawnPictures
+from ai4u_edu.page.viewer.scene.ground import (
+    INK_PICTURES_PER_S,
+    DrawnGround,
+    DrawnInk,
+    DrawnPictures,
+)
 from ai4u_edu.page.viewer.scene.handles import PageHandles
 from ai4u_edu.page.viewer.scene.labels import Labels, SpeechBubbles
 from ai4u_edu.page.viewer.scene.light import set_up_lights
@@ -75,7 +80,7 @@ class Viewer:
             (viewer_clients, MAX_FRAMES_PER_S),
             (DrawnGround(server), TEXTS_PER_S),
             (DrawnPictures(server), TEXTS_PER_S),
-            (DrawnInk(server), TEXTS_PER_S),
+            (DrawnInk(server), INK_PICTURES_PER_S),
             (bodies, MAX_FRAMES_PER_S),
             (Labels(server, viewer_clients), MAX_FRAMES_PER_S),
             (SpeechBubbles(server), TEXTS_PER_S),

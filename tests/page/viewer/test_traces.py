@@ -1,16 +1,22 @@
 """Ink and speech bubbles in the page's picture."""
 
+import io
 from collections.abc import Iterator
 from fnmatch import fnmatch
+from typing import Any
 
+import numpy as np
 import pytest
+import viser
+from PIL import Image
 
 from ai4u_edu import LocalBrain, Scene
+from ai4u_edu.page.viewer.backend.broadcast import VISER_VERSION
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
-from ai4u_edu.page.viewer.scene.ground import DrawnInk
+from ai4u_edu.page.viewer.scene.ground import INK_PIXELS, DrawnInk
 from ai4u_edu.page.viewer.scene.labels import SpeechBubbles
 from ai4u_edu.snapshot import capture_snapshot
-from ai4u_edu.snapshot.theme import latest_said
+from ai4u_edu.snapshot.theme import ink_pixels, latest_said
 from ai4u_edu.world.ink import TILE_M, ink_code
 
 BLUE = ink_code("blue")
@@ -55,6 +61,31 @@ def test_only_tiles_that_have_changed_are_sent(server: LocalServer) -> None:
     sim.reset(2)
     draw()
     assert nodes(server, "/ink/*/*/*") == []
+
+
+@pytest.mark.parametrize("version", [VISER_VERSION, "another"])
+def test_a_tile_that_changes_is_the_picture_of_its_ink(
+    server: LocalServer, monkeypatch: pytest.MonkeyPatch, version: str
+) -> None:
+    monkeypatch.setattr(viser, "__version__", version)
+    sim = Scene.load("draw_figure").build()
+    sim.reset(1)
+    ink, drawn = sim.world.ink, DrawnInk(server)
+    for number, colour in enumerate(["blue", "orange", "none"]):
+        start = 0.5 + 0.2 * number, 0.5
+        ink.draw(start, (1.0, 0.7), 0.0, 0.2, ink_code(colour))
+        snapshot = capture_snapshot(sim)
+        drawn.build(snapshot.static_scene)
+        drawn.draw(snapshot)
+    (name,) = nodes(server, "/ink/*/*/*")
+    image: Any = server.scene._handle_from_node_name[name]
+    sent = Image.open(io.BytesIO(image._data)).convert("RGBA")
+    (tile,) = ink.image().tiles.values()
+    expected = ink_pixels(tile).repeat(INK_PIXELS, axis=0).repeat(INK_PIXELS, axis=1)
+    shown = np.asarray(sent)
+    assert np.array_equal(shown[..., 3], expected[..., 3])
+    assert np.array_equal(shown[expected[..., 3] > 0], expected[expected[..., 3] > 0])
+    assert 0 < expected[..., 3].mean() < 255
 
 
 def test_a_tile_lies_where_its_ink_is(server: LocalServer) -> None:

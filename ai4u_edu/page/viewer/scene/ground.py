@@ -1,11 +1,16 @@
 """The static ground: the void, floors with their edges and shadows, areas."""
 
+import io
 import math
 from collections.abc import Collection
 
 import numpy as np
+import numpy.typing as npt
+import viser
+from PIL import Image
 from viser import BatchedMeshHandle, ImageHandle, SceneApi
 
+from ai4u_edu.page.viewer.backend.broadcast import VISER_VERSION
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.arena import arena_size, region_outlines
 from ai4u_edu.page.viewer.scene.geometry import (
@@ -26,6 +31,7 @@ from ai4u_edu.snapshot.theme import (
     AREA_OPACITY,
     FLOOR,
     GRID,
+    INK_RGBA,
     PASSED_OPACITY,
     VOID,
     Rgb,
@@ -56,8 +62,10 @@ BLACK: Rgb = (0, 0, 0)
 Place = tuple[float, ...]
 PICTURE_PIXELS = 2048
 """Longer side of a picture on the ground as it is sent, if it has fewer pixels."""
-INK_PIXELS = 4
+INK_PIXELS = 2
 """Pixels of a cell of ink, along each side."""
+INK_PICTURES_PER_S = 4.0
+"""Rate at which ink is drawn: the end of a line is hidden under the robot that draws it."""
 
 
 class DrawnGround:
@@ -185,13 +193,11 @@ class DrawnInk:
             drawn = self._drawn.get(key)
             if key.floor not in self._heights or (drawn is not None and drawn[0] is tile):
                 continue
-            # enlarged, since a browser blurs the edges between pixels
-            picture = ink_pixels(tile).repeat(INK_PIXELS, axis=0).repeat(INK_PIXELS, axis=1)
             if drawn is None:
                 centre = ((key.column + 0.5) * TILE_M, (key.row + 0.5) * TILE_M)
                 image = self._scene.add_image(
                     f"/ink/{list(self._heights).index(key.floor)}/{key.column}/{key.row}",
-                    picture,
+                    _enlarged(ink_pixels(tile)),
                     TILE_M,
                     TILE_M,
                     format="png",
@@ -202,13 +208,30 @@ class DrawnInk:
                 )
             else:
                 image = drawn[1]
-                image.image = picture
+                if viser.__version__ == VISER_VERSION:  # see ADR 7
+                    image._data = _ink_png(tile)
+                else:
+                    image.image = _enlarged(ink_pixels(tile))
             self._drawn[key] = tile, image
 
     def _keep(self, keys: Collection[TileKey]) -> None:
         """Remove all other tiles from the pages."""
         for key in [key for key in self._drawn if key not in keys]:
             self._drawn.pop(key)[1].remove()
+
+
+def _enlarged(pixels: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
+    """Return a tile with several pixels for each cell, since a browser blurs the edges between."""
+    return pixels.repeat(INK_PIXELS, axis=0).repeat(INK_PIXELS, axis=1)
+
+
+def _ink_png(tile: Tile) -> bytes:
+    """Return a tile of ink as a PNG file with a palette."""
+    picture = Image.fromarray(_enlarged(tile[::-1]))
+    picture.putpalette(INK_RGBA.tobytes(), "RGBA")
+    file = io.BytesIO()
+    picture.save(file, "PNG", compress_level=1)
+    return file.getvalue()
 
 
 def add_void(scene: SceneApi, static_scene: StaticScene) -> BatchedMeshHandle | None:
