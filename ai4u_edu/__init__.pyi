@@ -39,6 +39,7 @@ from ai4u_edu.blocks import EvalBoolValue as EvalBoolValue
 from ai4u_edu.blocks import EvalFloatValue as EvalFloatValue
 from ai4u_edu.blocks import EvalIntValue as EvalIntValue
 from ai4u_edu.blocks import EventRewardFunc as EventRewardFunc
+from ai4u_edu.blocks import EventSensor as EventSensor
 from ai4u_edu.blocks import FallReward as FallReward
 from ai4u_edu.blocks import FigureReward as FigureReward
 from ai4u_edu.blocks import FleeController as FleeController

@@ -10,7 +10,8 @@ SENSORS = (
     "FloatArrayCompositeSensor OrientationSensor BearingSensor PositionSensor RayCastingSensor "
     "LinearRayCastingSensor TouchSensor GroupTouchSensor GroundStatusSensor AreaOrientationSensor "
     "AgentArraySensor LocalGridSensor VelocitySensor HeadingSensor HomeostaticSensor "
-    "LineSensor GridSensor CellSensor PresenceSensor LightSensor ColourSensor HearSensor"
+    "LineSensor GridSensor CellSensor PresenceSensor LightSensor ColourSensor HearSensor "
+    "EventSensor"
 )
 ACTUATORS = (
     "RBMoveActuator CBMoveActuator DifferentialDriveActuator DiscreteActuator ContinuousActuator "

@@ -8,6 +8,7 @@ from ai4u_edu import (
     BoxShape,
     CircleShape,
     ControlRequestor,
+    EventSensor,
     GroundStatusSensor,
     GroupTouchSensor,
     Sensor,
@@ -126,3 +127,63 @@ def test_unknown_targets(sensor: Sensor, text: str) -> None:
     with pytest.raises(BlockError) as caught:
         small_sim([sensor])
     assert str(caught.value) == text
+
+
+def there_and_back(steps: int) -> Any:
+    """Return a controller that drives ahead for some decisions, then back."""
+    count = 0
+
+    def drive(_percept: Any) -> dict[str, Any]:
+        nonlocal count
+        count += 1
+        return {"move": [1.0 if count <= steps else -1.0, 0, 0, 0]}
+
+    return drive
+
+
+def test_an_event_is_read_once_when_a_touch_begins_and_once_when_it_ends() -> None:
+    sensors = [
+        TouchSensor(target="box"),
+        EventSensor(target="box", perception_key="hit"),
+        EventSensor(target="box", event="leave", perception_key="left"),
+    ]
+    sim = small_sim(sensors, controller=there_and_back(100))
+    percepts = [sim.step() for _ in range(130)]
+    touch, hit, left = (
+        [float(percept[key][0]) for percept in percepts] for key in ("touch", "hit", "left")
+    )
+    assert set(hit) == set(left) == {0.0, 1.0}
+    assert hit.index(1.0) == touch.index(1.0)
+    assert left.index(1.0) == len(touch) - touch[::-1].index(1.0)
+    assert (sum(hit), sum(left)) == (1.0, 1.0)
+
+
+def test_entering_and_leaving_an_area_are_events() -> None:
+    world = small_world()
+    world.add_area("goal", CircleShape(radius=0.5), position=(1, 0))
+    world.add_area("start", CircleShape(radius=0.5), position=(0, 0))
+    sensors = [
+        EventSensor(target="goal", perception_key="in"),
+        EventSensor(target="goal", event="leave", perception_key="out"),
+        EventSensor(target="start", perception_key="start"),
+    ]
+    sim = small_sim(sensors, world=world, controller=ahead)
+    assert float(sim.agents[0].percept["start"][0]) == 0.0, "it began there"
+    percepts = [sim.step() for _ in range(60)]
+    entered, went = ([float(percept[key][0]) for percept in percepts] for key in ("in", "out"))
+    assert entered.index(1.0) < went.index(1.0)
+    assert (sum(entered), sum(went)) == (1.0, 1.0)
+    assert sum(float(percept["start"][0]) for percept in percepts) == 0.0
+
+
+def test_a_touch_between_two_decisions_is_an_event_and_no_touch() -> None:
+    sensors = [TouchSensor(target="box"), EventSensor(target="box")]
+    sim = small_sim(sensors, actuators=[], skip_frame=200)
+    robot, contacts = sim.world["robot"], sim.world.contacts
+    while not contacts.of("robot"):
+        robot.set_velocity(2.0, 0.0)
+        sim.tick()
+    assert contacts.of("robot") == ("box",)
+    robot.move_to(-3.0, 0.0)
+    percept = sim.step()
+    assert (float(percept["touch"][0]), float(percept["event"][0])) == (-1.0, 1.0)

@@ -6,9 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from ai4u_edu import EventSensor
 from ai4u_edu.program import PrintedOutput, Program, Reading, host, obstacle_in, readings_of
 from ai4u_edu.program.output import MAX_DECISION_CHARS, MAX_TOTAL_CHARS
 from ai4u_edu.program.tracing import MAX_MOMENTS
+from tests.builders import small_sim
 
 COUNTER = """
 count = 0
@@ -316,3 +318,20 @@ def called(name: str, arguments: str) -> dict[str, Any]:
         host.call(json.dumps({"name": name, "arguments": arguments}))
     )
     return answer
+
+
+def test_a_program_reacts_to_what_happened_to_the_body() -> None:
+    program = Program.load(
+        "is_back = False\n"
+        "def decide(percept):\n"
+        "    global is_back\n"
+        "    if percept['hit'][0] > 0:\n"
+        "        is_back = True\n"
+        "    return {'move': [-1 if is_back else 1, 0, 0, 0]}\n"
+    )
+    hit = EventSensor(target="box", perception_key="hit")
+    sim = small_sim([hit], controller=lambda percept: program.decide(readings_of(percept)))
+    program.begin()
+    for _ in range(120):
+        sim.step()
+    assert sim.world["robot"].velocity[0] < 0

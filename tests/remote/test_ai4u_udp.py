@@ -15,6 +15,7 @@ from ai4u_edu import (
     BearingSensor,
     CircleShape,
     ControlRequestor,
+    EventSensor,
     LocalBrain,
     RBMoveActuator,
     RemoteBrain,
@@ -30,7 +31,7 @@ from tests.builders import small_sim
 from tests.remote.udp_script import NOOP, RESET, TICK_S, WAIT, UDPScript, udp_script
 from tests.waiting import LIMIT_S, Deadline, until
 
-AHEAD = "move;4;1.0;0;0;0"
+AHEAD, BACK = "move;4;1.0;0;0;0", "move;4;-1.0;0;0;0"
 RECEIVE_TIMEOUT_S = 0.2
 """Time for which a script may be silent, by its clock."""
 
@@ -86,6 +87,19 @@ def test_a_session(script: UDPScript) -> None:
     assert agent.last_action == {"move": (1.0, 0.0, 0.0, 0.0)}
     assert sim.world.ticks == 5  # its whole cycle is over
     assert brain.status().decisions == 1
+    brain.close()
+
+
+def test_a_script_reacts_to_an_event_of_the_body(script: UDPScript) -> None:
+    brain = remote_brain(script)
+    sim = small_sim([EventSensor(target="box", perception_key="hit")], brains=[brain])
+    script.meet(sim)
+    hits = [0.0]
+    for _ in range(80):
+        script.say(BACK if sum(hits) else AHEAD)
+        hits += script.next(sim)["hit"].tolist()
+    assert sum(hits) == 1.0
+    assert sim.world["robot"].velocity[0] < 0
     brain.close()
 
 

@@ -29,6 +29,7 @@ const AHEAD_DEG = 20;
 const SECTORS = { around: t("on any side"), ahead: t("ahead"), left: t("to the left"), right: t("to the right") };
 const STATISTICS = { min: t("smallest"), max: t("largest"), mean: t("mean") };
 const TOUCHES = new Set(["TouchSensor", "GroupTouchSensor"]);
+const EVENT = "EventSensor";
 /** A sensor whose reading is the same in all decisions. */
 const LEFT_OUT = new Set(["DoneSensor"]);
 
@@ -75,6 +76,7 @@ function senseBlocks(sensor) {
   if (rays) return rayBlocks(sensor, reading);
   if (shape.length === (stack > 1 ? 1 : 0)) return [plainBlock(sensor, reading)];
   if (TOUCHES.has(sensor.class)) return [touchBlock(sensor, `${reading}[0]`)];
+  if (sensor.class === EVENT) return [eventBlock(sensor, `${reading}[0]`)];
   return slots.length ? [slotBlock(sensor, reading)] : [statisticBlock(sensor, reading)];
 }
 
@@ -93,6 +95,14 @@ function plainBlock({ key, kind, unit }, reading) {
  */
 function touchBlock({ key }, reading) {
   return sense(`sense:${key}`, t("{key} is touched", { key }), [], "Boolean", () => value(`${reading} > 0`, COMPARISON));
+}
+
+/**
+ * @param {ProgramSensor} sensor
+ * @param {string} reading
+ */
+function eventBlock({ key }, reading) {
+  return sense(`sense:${key}`, t("{key} has just happened", { key }), [], "Boolean", () => value(`${reading} > 0`, COMPARISON));
 }
 
 /**

@@ -29,7 +29,7 @@ from ai4u_edu.blocks.sensors.status import (
     StepSensor,
     TruncatedSensor,
 )
-from ai4u_edu.blocks.sensors.touch import TouchSensor
+from ai4u_edu.blocks.sensors.touch import EventSensor, TouchSensor
 from ai4u_edu.blocks.sensors.velocity import VelocitySensor
 
 __all__ = [
@@ -40,6 +40,7 @@ __all__ = [
     "CellSensor",
     "ColourSensor",
     "DoneSensor",
+    "EventSensor",
     "FloatArrayCompositeSensor",
     "GridSensor",
     "GroundStatusSensor",

@@ -1,4 +1,6 @@
-"""A contact sensor for one body or area."""
+"""Contact sensors for one body or area."""
+
+from typing import ClassVar, Literal
 
 from gymnasium.spaces import Box
 
@@ -31,3 +33,52 @@ class TouchSensor(Sensor):
     def read(self, body: BodyView, view: WorldView) -> float:
         """Return the reading."""
         return 1.0 if view.touching(body, self.target) else -1.0
+
+
+class EventSensor(Sensor):
+    """1 once, when the agent has come to touch the target or has left it, else 0.
+
+    A TouchSensor says what is so now; this one says what has happened since the last reading, so
+    that a program or a script reacts to it once. The target is a body, or an area, in which the
+    agent is if its centre is. A touch that began and ended between two decisions counts; an area
+    that was entered and left between two decisions does not. An area in which an episode begins
+    was not entered.
+
+    Reading: (1,), 0 or 1. Source: ours; AI4U's scenes do it with the signals OnTouch, body_entered
+    and body_exited.
+    """
+
+    event: Literal["touch", "leave"] = "touch"
+    """Event that is read: touch, which is to enter if the target is an area; or leave."""
+    target: str
+    """Name of the body or area."""
+
+    carried: ClassVar[tuple[str, ...]] = ("_was_there", "_since")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._was_there: bool | None = None
+        """None before the first reading in an area."""
+        self._since = 0
+
+    def space(self) -> Box:
+        """Return the range 0..1."""
+        return Box(0.0, 1.0, (1,))
+
+    def on_setup(self, agent: AgentView, view: WorldView) -> None:
+        """Look up the target."""
+        view.check_target(self.target)
+
+    def on_reset(self, agent: AgentView, view: WorldView) -> None:
+        """Forget past events."""
+        self._was_there = None if self.target in view.areas else False
+        self._since = view.ticks
+
+    def read(self, body: BodyView, view: WorldView) -> float:
+        """Return the reading."""
+        is_there = view.touching(body, self.target)
+        was_there = is_there if self._was_there is None else self._was_there
+        began = not was_there and view.touched_after(body, self.target, self._since)
+        ended = not is_there and (was_there or began)
+        self._was_there, self._since = is_there, view.ticks
+        return float(began if self.event == "touch" else ended)

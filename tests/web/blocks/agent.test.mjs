@@ -22,6 +22,11 @@ test("a touch is a condition", () => {
   assert.deepEqual([message, python({})], ["box is touched", { code: 'percept["box"][0] > 0', order: COMPARISON, functions: [] }]);
 });
 
+test("an event is a condition", () => {
+  const [{ message, python }] = sensed({ class: "EventSensor", shape: [1] });
+  assert.deepEqual([message, python({}).code], ["box has just happened", 'percept["box"][0] > 0']);
+});
+
 test("named numbers are chosen by name, others by a statistic", () => {
   const slots = [{ name: "left", unit: "m", low: 0, high: 1 }, { name: "right", unit: "", low: null, high: null }];
   const [several] = sensed({ shape: [2], slots });
