@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.types import ASGIApp
 
-VISERS_CODE = re.compile(r"<script(?![^>]*\bsrc=)[^>]*>.*?</script>", re.DOTALL)
+VISERS_CODE = re.compile(r"<script(?![^>]*\b(?:src=|id=.ai4u-texts))[^>]*>.*?</script>", re.DOTALL)
 ROOT = '<div id="root">'
 KEPT_HEADERS = {"content-security-policy", "cache-control", "etag", "set-cookie"}
 ASKED = {"x-plain-page": "yes"}

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from starlette.applications import Starlette
+from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
@@ -15,6 +16,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from ai4u_edu.classroom.pages import FILE_ROUTES, Echo
 from ai4u_edu.page.server import ServerThread
 from ai4u_edu.page.server.limits.concurrency_limit import ConcurrencyLimit
+from ai4u_edu.page.server.reader_language import ReaderLanguage
 from ai4u_edu.page.server.standalone import standalone_page
 from tests.browser.wall_data import class_message, drawing_message, poses_message
 from tests.waiting import LIMIT_S
@@ -67,7 +69,8 @@ class WallServer:
                 WebSocketRoute("/check/socket", Echo(ConcurrencyLimit(50, 0.2))),
                 WebSocketRoute("/{page}/socket", self._socket),
                 *FILE_ROUTES,
-            ]
+            ],
+            middleware=[Middleware(ReaderLanguage)],
         )
 
     def send(self, **changes: Any) -> None:

@@ -116,7 +116,7 @@ export class TournamentBoard {
     const rest = element("p", { className: "ai4u-facts", textContent: without.length ? tn("Nothing yet from {n} student: {names}", "Nothing yet from {n} students: {names}", without.length, { names }) : "" });
     if (rows.length === 0) return [rest];
     const caption = element("caption", { textContent: t("Handed in") });
-    const head = tableHead(t("Student"), t("Network"), t("Check"));
+    const head = tableHead(t("Student"), t("Network"), t("Checked"));
     return [element("table", { className: "ai4u-networks" }, caption, head, element("tbody", {}, ...rows)), rest];
   }
 

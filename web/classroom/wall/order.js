@@ -12,10 +12,10 @@ const KEPT_SHARE = 0.6;
 
 /** @type {Record<string, {text: string, keeps: (room: Room) => boolean}>} */
 export const FILTERS = {
-  all: { text: t("All"), keeps: () => true },
+  all: { text: t("All rooms"), keeps: () => true },
   help: { text: t("Needs help"), keeps: needsHelp },
   driving: { text: t("Driving"), keeps: (room) => room.status === "driving" },
-  solved: { text: t("Solved"), keeps: (room) => room.is_solved },
+  solved: { text: t("Rooms that solved it"), keeps: (room) => room.is_solved },
   asleep: { text: t("Asleep"), keeps: (room) => room.status === "asleep" || room.status === "away" },
 };
 

@@ -1,0 +1,16 @@
+"""The page in the language of its browser."""
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.served_viser import ServedViser
+
+pytestmark = pytest.mark.browser
+
+
+def test_notices_of_viser_speak_portuguese(site: ServedViser) -> None:
+    page = site.page(has_viser=True, locale="pt-BR")
+    (client,) = site.inner.get_clients().values()
+    client.add_notification("That didn't work", "as written")
+    notice = page.locator(".mantine-Notification-root", has_text="as written")
+    expect(notice).to_contain_text("Não funcionou")
