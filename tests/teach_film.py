@@ -22,13 +22,14 @@ from tests.screenshot import PICTURES
 from tests.waiting import LIMIT_MS
 
 WIDTH, HEIGHT = 1100, 700
-SHOWN_WIDTH = 640
-COLOURS = 64
+SHOWN_WIDTH = 720
+QUALITY = 55
 FRAME_MS, LAST_MS = 140, 1500
 DRIVES = 5
 FRAMES_A_DRIVE = 12
 """Pictures of a drive, about; those between are left out."""
-FRAMES_OF_LEARNING = 8
+MAX_PICTURES = 150
+FRAMES_OF_LEARNING, FRAMES_OF_RESULT = 8, 10
 STARTS = 3
 """Starts from which the network drives."""
 MAX_DRIVE_S = 120.0
@@ -57,14 +58,18 @@ class Film:
         self.frames[first:] = taken[:: max(1, round(len(taken) / count))]
 
     def save(self, path: Path) -> None:
-        """Write a GIF."""
-        palette = self.frames[len(self.frames) // 2].quantize(COLOURS)
-        frames = [
-            frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in self.frames
-        ]
-        durations = [FRAME_MS] * (len(frames) - 1) + [LAST_MS]
-        first, *others = frames
-        first.save(path, save_all=True, append_images=others, duration=durations, loop=0)
+        """Write an animated WebP."""
+        durations = [FRAME_MS] * (len(self.frames) - 1) + [LAST_MS]
+        first, *others = self.frames
+        first.save(
+            path,
+            save_all=True,
+            append_images=others,
+            duration=durations,
+            loop=0,
+            quality=QUALITY,
+            method=4,
+        )
 
 
 def is_over(now: dict[str, Any], episode: int) -> bool:
@@ -74,10 +79,12 @@ def is_over(now: dict[str, Any], episode: int) -> bool:
 
 
 def watch(server: Played, on_step: Callable[[], object]) -> None:
-    """Wait until the episode is over, or for as long as a drive takes at most."""
-    episode, end = server.snapshot()["episode"], time.monotonic() + MAX_DRIVE_S / 3
-    while time.monotonic() < end and not is_over(server.snapshot(), episode):
+    """Take pictures until the episode is over, or until there are too many."""
+    episode = server.snapshot()["episode"]
+    for _ in range(MAX_PICTURES):
         on_step()
+        if is_over(server.snapshot(), episode):
+            break
 
 
 def drive(page: Page, server: Played, on_step: Callable[[], object]) -> None:
@@ -111,7 +118,7 @@ def keys_to(robot: Sequence[float], box: Sequence[float]) -> set[str]:
 def main() -> None:
     """Take the pictures, and write the film."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=PICTURES / "teach.gif")
+    parser.add_argument("--out", type=Path, default=PICTURES / "teach.webp")
     options = parser.parse_args()
     scene = ("box_chase", "--seed", "1", "--time-scale", str(SLOWLY))
     with played(*scene, waits_for_key=True) as server, browser() as chromium:
@@ -134,11 +141,15 @@ def main() -> None:
             page.wait_for_timeout(500)
         tab.get_by_role("button", name="Learn from").click()
         before = len(film.frames)
-        while not tab.get_by_role("article").count():
+        curve = tab.get_by_role("img", name="The error")
+        result = tab.get_by_role("status").filter(has_text="It acts like you in")
+        while not result.is_visible():
             film.take()
+            if curve.is_visible():
+                curve.scroll_into_view_if_needed()
         film.shorten(before, FRAMES_OF_LEARNING)
-        tab.get_by_role("article").scroll_into_view_if_needed()
-        film.take(4)
+        result.scroll_into_view_if_needed()
+        film.take(FRAMES_OF_RESULT)
         for _ in range(STARTS):
             page.keyboard.press("KeyN")
             before = len(film.frames)
