@@ -13,6 +13,7 @@ from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.blocks.sensors.sensor import Sensor
+from ai4u_edu.locale import Text
 from ai4u_edu.locale import gettext as _
 
 KINDS: dict[str, type[Block]] = {
@@ -54,6 +55,11 @@ def built_in_blocks() -> dict[str, list[type[Block]]]:
 def summary(cls: type[Block]) -> str:
     """Return the first line of a block's description."""
     return (inspect.getdoc(cls) or "").split("\n", 1)[0]
+
+
+def short_summary(cls: type[Block]) -> Text:
+    """Return a block's summary without its source, which is translated for built-in blocks."""
+    return Text(summary(cls).split(" Source:")[0].replace("``", ""))
 
 
 def differences(cls: type[Block]) -> str:

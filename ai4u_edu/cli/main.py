@@ -6,7 +6,7 @@ import json
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sized
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.numeric_threads import restart_with_one_thread
 from ai4u_edu.base.version import __version__
 from ai4u_edu.cli import episodes, lessons, training
@@ -38,7 +38,10 @@ from ai4u_edu.locale import (
     VARIABLE,
     catalogue,
     known_language,
+    ngettext,
+    translate,
 )
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale.catalogues import FOLDER
 
 LANGUAGE_OPTION = "--lang"
@@ -68,7 +71,7 @@ def main() -> None:
     try:
         run()
     except AI4UError as error:
-        _fail(str(error))
+        _fail(translate(text_of(error)))
     except OSError as error:
         if error.filename is None:  # no file's
             raise
@@ -81,7 +84,8 @@ def main() -> None:
 
 
 def _fail(text: str) -> None:
-    typer.secho(f"error: {text}", err=True, fg=typer.colors.RED)
+    words = translate(_("error: {text}", text=text))
+    typer.secho(words, err=True, fg=typer.colors.RED)
     sys.exit(1)
 
 
@@ -94,7 +98,8 @@ def _take_language(words: list[str]) -> None:
         wanted = value if has_value else "".join(words[number + 1 : number + 2])
         code = known_language(wanted)
         if not code:
-            _fail(f"{LANGUAGE_OPTION}: expected one of {', '.join(LANGUAGES)}, got {wanted!r}")
+            known = ", ".join(LANGUAGES)
+            _fail(_("--lang: expected one of {known}, got {wanted!r}", known=known, wanted=wanted))
         del words[number : number + (1 if has_value else 2)]
         os.environ[VARIABLE] = code  # rooms, notebooks and other processes inherit it
         break
@@ -122,7 +127,7 @@ def _helped(command: Any) -> Iterator[Any]:
     for part in (command, *command.params):
         if getattr(part, "help", None):
             yield part
-    for _, below in sorted(getattr(command, "commands", {}).items()):
+    for _name, below in sorted(getattr(command, "commands", {}).items()):
         yield from _helped(below)
 
 
@@ -266,9 +271,15 @@ def check(
     scene = Scene.load(file)
     described = scene.description
     typer.echo(
-        f"{file}: {_count(described.bodies, 'body', 'bodies')}, "
-        f"{_count(described.floors, 'floor', 'floors')}, "
-        f"{_count(described.agents, 'agent', 'agents')}"
+        translate(
+            _(
+                "{file}: {bodies}, {floors}, {agents}",
+                file=str(file),
+                bodies=ngettext("{n} body", "{n} bodies", len(described.bodies)),
+                floors=ngettext("{n} floor", "{n} floors", len(described.floors)),
+                agents=ngettext("{n} agent", "{n} agents", len(described.agents)),
+            )
+        )
     )
     report = check_scene(scene)
     typer.echo(str(report))
@@ -276,16 +287,12 @@ def check(
         raise typer.Exit(1)
 
 
-def _count(things: Sized, one: str, many: str) -> str:
-    return f"{len(things)} {one if len(things) == 1 else many}"
-
-
 @app.command()
 def blocks(
     name: Annotated[str, typer.Argument(help="Explain this block.")] = "",
 ) -> None:
     """List the blocks that agents are built from, or explain one."""
-    from ai4u_edu.blocks.docs import built_in_blocks, lesson_page, summary
+    from ai4u_edu.blocks.docs import built_in_blocks, lesson_page, short_summary
 
     if name:
         typer.echo(lesson_page(name))
@@ -293,7 +300,7 @@ def blocks(
     for kind, members in built_in_blocks().items():
         typer.secho(kind, bold=True)
         for cls in members:
-            typer.echo(f"  {cls.__name__:<28}{summary(cls)}")
+            typer.echo(f"  {cls.__name__:<28}{translate(short_summary(cls))}")
 
 
 @app.command()

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.base.options import DRIVERS, MISSIONS, MissingOptionError, load_option
 from ai4u_edu.cli import play_options as o
 from ai4u_edu.cli.options import OwnBlocks, expect_scene, load_own_blocks
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, translate
 
 if TYPE_CHECKING:
     from ai4u_edu.page.server.start_page import MissionsView
@@ -150,7 +153,10 @@ def _with_work(settings: "RoomSettings") -> "RoomSettings":
     from ai4u_edu.member.my_work import open_my_work
 
     work = open_my_work(Path(settings.scene))
-    typer.echo(f"Your work is in {work.folder}, and scenes that you save go there.")
+    told = _(
+        "Your work is in {folder}, and scenes that you save go there.", folder=str(work.folder)
+    )
+    typer.echo(translate(told))
     return replace(
         settings,
         scene=str(work.scene),
@@ -184,8 +190,8 @@ def _with_class(
     seats = SeatFile(unsaved_folder().with_name("classes") / "seats.json")
     seat = seats.take(url, code, name_choice)
     folder = seats.folder(seat)
-    make_folder(folder, "the seat in the class")
-    typer.echo(f"Joined the class as {seat.name}.")
+    make_folder(folder, _("the seat in the class"))
+    typer.echo(translate(_("Joined the class as {name}.", name=seat.name)))
     return replace(
         settings, class_link=ClassLinkSettings(seat.url, seat.token), class_folder=folder
     )
@@ -201,11 +207,11 @@ def _with_class_at_hub(settings: "RoomSettings", port: int) -> "RoomSettings":
     try:
         seat = join_at_hub()
     except NotJoinedError as error:
-        _warn(f"{error} The world runs without a class.")
+        _warn(join([text_of(error), _("The world runs without a class.")]))
         return settings
     folder = unsaved_folder().with_name("classes") / "at-hub"
-    make_folder(folder, "the seat in the class")
-    typer.echo(f"Joined the class as {seat.name}.")
+    make_folder(folder, _("the seat in the class"))
+    typer.echo(translate(_("Joined the class as {name}.", name=seat.name)))
     token = settings.rules.token
     page = with_token(f"proxy/{port}/", token) if port else ""
     return replace(
@@ -227,13 +233,20 @@ def _announce(room: "Room", host: str, url: str, token: str) -> None:
     typer.echo(startup_banner(room.title, host, url, token))
     unsaved = room.editor.recovery.unsaved
     if unsaved is not None:
-        typer.echo(
-            f"You have an unsaved scene from {unsaved.when}. To reopen it: ai4u-edu play --restore"
+        told = _(
+            "You have an unsaved scene from {time}. To reopen it: ai4u-edu play --restore",
+            time=unsaved.when,
         )
+        typer.echo(translate(told))
     if len(room.unsaved) > 1:
         known = format_unsaved(room.unsaved)
-        typer.echo(f"All unsaved scenes: {known}. To reopen one: ai4u-edu play SCENE --restore")
+        told = _(
+            "All unsaved scenes: {known}. To reopen one: ai4u-edu play SCENE --restore",
+            known=known,
+        )
+        typer.echo(translate(told))
 
 
 def _warn(problem: str) -> None:
-    typer.secho(f"warning: {problem}", err=True, fg=typer.colors.YELLOW)
+    words = translate(_("warning: {text}", text=problem))
+    typer.secho(words, err=True, fg=typer.colors.YELLOW)

@@ -53,3 +53,11 @@ def test_notebooks_are_written_in_a_language_that_their_checks_keep(tmp_path: Pa
     notebook = json.loads((tmp_path / "02_drive.ipynb").read_text(encoding="utf-8"))
     (setup,) = (cell for cell in notebook["cells"] if "setup" in cell["metadata"].get("tags", ()))
     assert "set_language('pt_BR')" in "".join(setup["source"])
+
+
+def test_an_error_of_a_scene_file_is_in_the_language(tmp_path: Path) -> None:
+    file = tmp_path / "broken.yaml"
+    file.write_text("name: test\nbodys: []\n")
+    done = run("check", str(file), "--lang", PSEUDO)
+    assert done.returncode == 1
+    assert "úńkńówń páŕámétéŕ" in done.stderr

@@ -9,8 +9,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ai4u_edu.blocks import Block
-from ai4u_edu.blocks.docs import summary
-from ai4u_edu.locale import Text
+from ai4u_edu.blocks.docs import short_summary
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.blocks import types_of
 from ai4u_edu.page.editing.drivers import Driver
@@ -110,7 +109,4 @@ def hint_of(type_name: str) -> str:
 
 def first_sentence(cls: type[Block]) -> str:
     """Return a block's summary without its source."""
-    text = summary(cls)
-    if isinstance(text, Text):
-        return text
-    return Text(text.split(" Source:")[0].replace("``", ""))
+    return short_summary(cls)
