@@ -3,7 +3,8 @@
 It is measured from the first request to the agent's sensors in the panel, in a browser just started
 (nothing cached, nothing compiled), as at the beginning of a lesson. The processor time
 of the browser's processes is printed too; other load on the machine changes it less.
-``--against CHECKOUT`` loads the page of another checkout in turn with this one's.
+``--against CHECKOUT`` loads the page of another checkout in turn with this one's;
+``--language pt-BR`` loads it in another language in turn with English.
 """
 
 import argparse
@@ -46,14 +47,14 @@ def used() -> float:
     return spent
 
 
-def load(url: str) -> Load:
-    """Load a page once."""
+def load(url: str, language: str = "en-US") -> Load:
+    """Load a page once, in a browser with a language."""
     with browser() as chromium:
-        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page = chromium.new_page(viewport={"width": 1280, "height": 800}, locale=language)
         page.add_init_script(f"({COUNT})()")
         began, before = time.perf_counter(), used()
         page.goto(url, wait_until="commit")
-        page.locator(".ai4u-sensor").first.wait_for(timeout=60_000)
+        page.locator(".ai4u-sensor").first.wait_for(state="attached", timeout=60_000)
         took, spent = time.perf_counter() - began, used() - before
         return Load(took, spent, int(page.evaluate("linked")))
 
@@ -63,7 +64,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scene", default="box_chase")
     parser.add_argument("--times", type=int, default=9)
-    parser.add_argument("--against", type=Path, metavar="CHECKOUT")
+    against = parser.add_mutually_exclusive_group()
+    against.add_argument("--against", type=Path, metavar="CHECKOUT")
+    against.add_argument("--language", help="such as pt-BR")
     options = parser.parse_args()
     folders = [ROOT] if options.against is None else [options.against.resolve(), ROOT]
     with ExitStack() as stack:
@@ -72,15 +75,18 @@ def main() -> None:
             os.environ["PYTHONPATH"] = str(folder)
             os.chdir(folder)
             urls.append(stack.enter_context(played(options.scene)).url)
-        found = [[load(url) for url in urls] for _ in range(options.times)]
-    for folder, loads in zip(folders, zip(*found, strict=True), strict=True):
+        pages = [(folder.name, url, "en-US") for folder, url in zip(folders, urls, strict=True)]
+        if options.language:
+            pages.append((options.language, urls[0], options.language))
+        found = [[load(url, language) for _, url, language in pages] for _ in range(options.times)]
+    for (name, *_), loads in zip(pages, zip(*found, strict=True), strict=True):
         times = sorted(each.seconds for each in loads)
         middle = statistics.median(each.processor for each in loads)
         print(
-            f"{folder.name}: median {statistics.median(times):.2f} s, fastest {times[0]:.2f} s, "
+            f"{name}: median {statistics.median(times):.2f} s, fastest {times[0]:.2f} s, "
             f"{middle:.2f} s of a processor, {loads[-1].programs} programs"
         )
-    if len(folders) == 2:
+    if len(pages) == 2:
         for name in ("seconds", "processor"):
             ratios = [getattr(new, name) / getattr(old, name) for old, new in found]
             print(f"{name}, median of the pairs' ratios: {statistics.median(ratios):.2f}")
