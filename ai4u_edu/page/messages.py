@@ -12,6 +12,7 @@ from msgspec import Meta, Struct
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.base.limits import MAX_EXACT_INT
 from ai4u_edu.locale import Text, translate
+from ai4u_edu.locale import gettext as _
 
 MAX_NAME_CHARS = 200
 MAX_PATH_PARTS = 12
@@ -86,7 +87,9 @@ class MessageReader(Generic[M]):
         except msgspec.ValidationError as error:
             raise ValueError(_sentence(str(error))) from None
         except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
-            raise ValueError(f"expected JSON, got {text[:40]!r}: {error}") from None
+            raise ValueError(
+                _("expected JSON, got {text}: {error}", text=repr(text[:40]), error=str(error))
+            ) from None
 
     def _decoded(self, text: str | bytes) -> M | PageCommand:
         envelope = _ENVELOPE.decode(text)
@@ -94,10 +97,13 @@ class MessageReader(Generic[M]):
             return self._messages[envelope.type].decode(text)
         if envelope.type != COMMAND_TYPE:
             hint = suggest(envelope.type[:80], [*self._messages, COMMAND_TYPE])
-            raise ValueError(f"unknown type {envelope.type!r:.80}; {hint}")
+            raise ValueError(
+                _("unknown type {type}; {hint}", type=f"{envelope.type!r:.80}", hint=hint)
+            )
         if envelope.command not in self._commands:
             hint = suggest(envelope.command[:80], self._commands)
-            raise ValueError(f"no command is called {envelope.command!r:.80}; {hint}")
+            name = f"{envelope.command!r:.80}"
+            raise ValueError(_("no command is called {name}; {hint}", name=name, hint=hint))
         return self._commands[envelope.command].decode(text)
 
 

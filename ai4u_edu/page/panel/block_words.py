@@ -353,3 +353,37 @@ BLOCK_WORDS: dict[str, BlockWords] = {
     "": BlockWords("", OWN_BLOCKS, "own"),
 }
 """Words by class name, in the order in which a page shows the questions."""
+
+NUMBER_NAMES: dict[str, str] = {
+    "forward": _("forward"),
+    "turn": _("turn"),
+    "jump": _("jump"),
+    "forward jump": _("forward jump"),
+    "strafe": _("strafe"),
+    "left": _("left"),
+    "right": _("right"),
+    "up": _("up"),
+    "throttle": _("throttle"),
+    "steering": _("steering"),
+    "turning": _("turning"),
+    "speak": _("speak"),
+    "heard": _("heard"),
+    "down": _("down"),
+    "colour": _("colour"),
+    "width": _("width"),
+    "grip": _("grip"),
+    "sine": _("sine"),
+    "cosine": _("cosine"),
+    "distance": _("distance"),
+    "left?": _("left?"),
+    "ahead?": _("ahead?"),
+    "north?": _("north?"),
+    "east?": _("east?"),
+    "row": _("row"),
+    "column": _("column"),
+    "red": _("red"),
+    "green": _("green"),
+    "blue": _("blue"),
+    "brightness": _("brightness"),
+}
+"""Names of the numbers of readings and actions, as a page shows them; programs have the English."""

@@ -6,6 +6,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.proposals import NewThing
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.page_view import PageView
@@ -45,5 +46,11 @@ class Page:
         """Wait for a result of the runner; it does what was asked for also if the page leaves."""
         stall = self.context.runner.stall
         if stall is not None and not future.done():
-            self.note("info", f"That has to wait: {stall}. If it never answers, end the server.")
+            self.note(
+                "info",
+                _(
+                    "That has to wait: {stall}. If it never answers, end the server.",
+                    stall=str(stall),
+                ),
+            )
         return await result_of(future)

@@ -26,6 +26,7 @@ from ai4u_edu.page.panel.parts.due import Parts, due_parts
 from ai4u_edu.page.panel.upload import MAX_PART_BYTES, Upload
 from ai4u_edu.page.server.bindings import choose_agent
 from ai4u_edu.page.server.limits.keepalive import keepalives
+from ai4u_edu.page.server.limits.socket_close import close_reason
 from ai4u_edu.page.server.page_receiver import ReceiveLimits, receive_messages
 from ai4u_edu.page.server.proxy import PAGE_ID_PARAM, page_id
 from ai4u_edu.runtime.runner import Runner
@@ -87,7 +88,9 @@ class PanelSockets:
         await socket.accept()
         with suppress(WebSocketDisconnect):
             if PAGE_ID_PARAM in socket.query_params and not page_id(scope):
-                await socket.close(1008, "expected a page id of 8 to 64 letters, digits and -")
+                await socket.close(
+                    1008, close_reason(_("expected a page id of 8 to 64 letters, digits and -"))
+                )
                 return
             await _PanelConnection(socket, self, page_id(scope)).serve()
 

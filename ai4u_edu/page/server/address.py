@@ -31,7 +31,7 @@ def listen(host: str, port: int) -> socket.socket:
         AddressError: it can't listen there, for another reason.
     """
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(
+        family, kind, protocol, _name, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
     except (OSError, UnicodeError) as error:

@@ -8,6 +8,7 @@ from threading import Lock, Thread
 
 from ai4u_edu.agent.block_errors import storable
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import catalogue, reader
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.loop_queue import result_of
 from ai4u_edu.recording import Episode
@@ -37,8 +38,8 @@ class ExportStoppedError(Exception):
 class Exports:
     """Queue and cache of files.
 
-    Equal requests share one file. A file that all its requests have given up is not made, or
-    stopped.
+    Equal requests in one language share one file. A file that all its requests have given up is
+    not made, or stopped.
 
     The event loop calls :meth:`get`. A daemon thread, which ends when the queue is empty, makes the
     files. A lock guards what both use.
@@ -63,10 +64,8 @@ class Exports:
             BusyError: too many files are in the queue, or too many requests wait.
             AI4UError: the file can't be made.
         """
-        key = (
-            id(episode),
-            ending,
-        )  # job and cache keep the episode alive: its id is unique
+        # job and cache keep the episode alive: its id is unique
+        key = id(episode), ending, catalogue().language
         with self._lock:
             if key in self._cached:
                 self._cached.move_to_end(key)
@@ -122,7 +121,8 @@ class Exports:
                     return
                 job = self._queue.popleft()
             try:
-                data = self._make(job.episode, job.ending, job.check)
+                with reader(job.key[2]):
+                    data = self._make(job.episode, job.ending, job.check)
             except ExportStoppedError:
                 continue
             except BaseException as error:  # else all later requests would wait for ever
@@ -151,7 +151,7 @@ class Exports:
             size -= len(dropped)
 
 
-_Key = tuple[int, str]
+_Key = tuple[int, str, str]
 
 
 @dataclass(eq=False)

@@ -163,7 +163,7 @@ with --allow-host NAME"
         return True
 
     def _is_ours(self, origin: str, host: str, scheme: str) -> bool:
-        theirs, _, place = origin.partition("://")
+        theirs, _colon, place = origin.partition("://")
         parts = _HOST.fullmatch(place)
         if theirs not in _PORTS or parts is None:
             return False

@@ -17,7 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.agent.driving_keys import RESTART, keys_of
-from ai4u_edu.base.errors import NameNotFoundError, shorten
+from ai4u_edu.base.errors import NameNotFoundError, shorten, text_of
 from ai4u_edu.blocks.keyboard import CENTERED, Stick
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.messages import Message, PageCommand, translated
@@ -232,7 +232,8 @@ class _Page:
             try:
                 await result_of(future)
             except Exception as error:  # a student's block may raise anything in a reset
-                await self._send_error(f"{type(error).__name__}: {error}")
+                text = _("{error}: {problem}", error=type(error).__name__, problem=text_of(error))
+                await self._send_error(text)
 
     async def _refuse(self, _data: str | bytes, text: str) -> None:
         await self._send_error(text)

@@ -15,6 +15,7 @@ from ai4u_edu.blocks import (
     DiscreteArrowController,
     WASDRBMoveController,
 )
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import library_text
 from ai4u_edu.page.messages import Message, MessageReader
 from ai4u_edu.page.server.api import finite
@@ -172,12 +173,12 @@ class ErrorEvent(InputEvent, frozen=True, tag="error"):
 
 
 _MOTIONS = {
-    (1, 0, 0): "forward",
-    (-1, 0, 0): "back",
-    (0, 1, 0): "right",
-    (0, -1, 0): "left",
-    (0, 0, 1): "jump",
-    (1, 0, 1): "jump forward",
+    (1, 0, 0): _("forward"),
+    (-1, 0, 0): _("back"),
+    (0, 1, 0): _("right"),
+    (0, -1, 0): _("left"),
+    (0, 0, 1): _("jump"),
+    (1, 0, 1): _("jump forward"),
 }
 """Label of a motion, by the signs of (forward, turn, jump of either kind)."""
 
@@ -274,7 +275,7 @@ def key_labels(agent: BasicAgent, brain: Brain | None = None) -> dict[str, str]:
         return {}
     if not isinstance(controller, DiscreteArrowController):
         return {}
-    names = {}
+    names: dict[str, str] = {}
     for action, row in zip(_CHOICES, actuator.table[1:], strict=False):
         forward, turn, jump, forward_jump = row
         name = _MOTIONS.get((_sign(forward), _sign(turn), _sign(jump + forward_jump)))

@@ -199,7 +199,7 @@ def _drawn(episode: Episode) -> bytes:
 
 
 def _file(episode: Episode, ending: str, check: Callable[[], None]) -> bytes:
-    _, write = WRITERS[ending]
+    _kind, write = WRITERS[ending]
     with tempfile.TemporaryDirectory(prefix="ai4u-edu-") as folder:
         replay = Replay(episode, on_step=check)
         return write(replay, Path(folder) / f"episode.{ending}").read_bytes()

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,38 @@ import numpy as np
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.blocks import Percept
+from ai4u_edu.locale import catalogue, library_text, ngettext, translate
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.replay import Replay
 from ai4u_edu.snapshot import Snapshot, StaticScene, theme
 from ai4u_edu.world import BodyDescription, CircleShape, RegionDescription, RingShape
 
 TEMPLATE = Path(__file__).parent / "player.html"
 PLACEHOLDER = "/*EPISODE*/null"
+LANGUAGE = "/*LANGUAGE*/en"
+TEXTS: Mapping[str, str] = {
+    "world": _("The world from above"),
+    "play": _("Play"),
+    "pause": _("Pause"),
+    "time": _("Time"),
+    "speed": _("Speed"),
+    "the_agent": _("The agent"),
+    "agent": _("Agent"),
+    "action": _("Action"),
+    "reward": _("Reward"),
+    "sensed": _("What it sensed"),
+    "so_far": _("so far"),
+    "about": _("seed {seed}, {seconds} s"),
+    "about_success": _("seed {seed}, {seconds} s, the goal was reached"),
+    "about_no_success": _("seed {seed}, {seconds} s, the goal was not reached"),
+    "shown_up_to": _("Shown up to {seconds} s: {why}"),
+    "seconds": _("{seconds} seconds"),
+    "no_decision": _("No decision yet"),
+    "decision": _("Decision {n} of {last}"),
+    "terminated": _("Decision {n} of {last}, terminated"),
+    "truncated": _("Decision {n} of {last}, truncated"),
+}
+"""Texts of the page's script, which puts their values into them."""
 MAX_POSES_PER_S = 30
 """Poses per second; the page interpolates between them."""
 MAX_READING_NUMBERS = 300
@@ -40,7 +67,8 @@ def html_of(replay: Replay) -> str:
     for risky in "<>&":
         text = text.replace(risky, f"\\u{ord(risky):04x}")
     page = TEMPLATE.read_text(encoding="utf-8")
-    return page.replace(PLACEHOLDER, text)
+    language = catalogue().language.replace("_", "-")
+    return page.replace(LANGUAGE, language).replace(PLACEHOLDER, text)
 
 
 def _data(replay: Replay) -> dict[str, Any]:
@@ -52,12 +80,13 @@ def _data(replay: Replay) -> dict[str, Any]:
     moving = [body.name for body in static_scene.bodies if body.kind != "static"]
     verdict = replay.verdict
     return {
-        "title": scene.title or scene.name,
-        "goal": scene.goal,
+        "texts": {name: translate(text) for name, text in TEXTS.items()},
+        "title": translate(library_text(scene.title or scene.name)),
+        "goal": translate(library_text(scene.goal)),
         "seed": str(episode.seed),  # too large for a JavaScript number
         "success": episode.success,
         "exact": verdict.exact,
-        "why": verdict.why,
+        "why": translate(verdict.why),
         "dt": 1 / scene.world.ticks_per_second,
         "bounds": static_scene.bounds,
         "void": hex_colour(theme.VOID),
@@ -165,7 +194,7 @@ def _readings(percept: Percept) -> dict[str, Any]:
         elif reading.size <= MAX_READING_NUMBERS:
             shown[name] = [_digits(float(each)) for each in reading.ravel()]
         else:
-            shown[name] = f"{reading.size} numbers"
+            shown[name] = translate(ngettext("{n} number", "{n} numbers", int(reading.size)))
     return shown
 
 

@@ -92,6 +92,10 @@ def write_mp4(replay: Replay, path: Path, *, longest: int = 640) -> Path:
     return path
 
 
+def _no_video(path: Path, reason: str) -> str:
+    return _("{file}: the video can't be written: {reason}", file=str(path), reason=reason)
+
+
 def _encode(ffmpeg: str, frames: Iterator[Frame], fps: float, path: Path) -> str | None:
     """Encode frames with ffmpeg; return its message if it fails, and None otherwise."""
     first = next(frames)

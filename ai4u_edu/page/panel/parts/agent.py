@@ -13,6 +13,7 @@ from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.base.errors import AI4UError
 from ai4u_edu.blocks import RemoteStatus
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.page.panel.block_words import NUMBER_NAMES
 from ai4u_edu.page.panel.context import PanelContext
 from ai4u_edu.page.panel.gallery import words_of
 from ai4u_edu.page.panel.parts.part import PanelPart
@@ -382,7 +383,8 @@ def _action(
             actuator=name,
             title=words_of(actuator.block).title,
             type_name=actuator.block,
-            name=component.name or (name if len(values) == 1 else str(index)),
+            name=NUMBER_NAMES.get(component.name, component.name)
+            or (name if len(values) == 1 else str(index)),
             value=round(value, 4),
             low=component.low,
             high=component.high,

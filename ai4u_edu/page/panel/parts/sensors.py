@@ -13,6 +13,7 @@ from PIL import Image
 from ai4u_edu.base.colors import hex_colour
 from ai4u_edu.blocks import CodeLegend, Legend, RayPicture
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.page.panel.block_words import NUMBER_NAMES
 from ai4u_edu.page.panel.gallery import hint_of, words_of
 from ai4u_edu.snapshot.block_info import RayLayout, SensorInfo
 from ai4u_edu.snapshot.numbers import number
@@ -196,7 +197,7 @@ def _lines(sensor: SensorInfo, rows: Floats) -> list[ReadingLine]:
     units = units if len(units) == count else [sensor.unit] * count
     return [
         ReadingLine(
-            name=name,
+            name=NUMBER_NAMES.get(name, name),
             value=_short(rows[-1, i]),
             text=number(float(rows[-1, i])),
             unit=units[i],

@@ -2,6 +2,8 @@
 
 from http import HTTPStatus
 
+from ai4u_edu.locale import translate
+
 
 def plain_response(status: int, text: str, *, retry_after: int = 0) -> bytes:
     r"""Return the bytes of an HTTP response, after which the connection is closed.
@@ -21,7 +23,7 @@ def plain_response(status: int, text: str, *, retry_after: int = 0) -> bytes:
     too slow
     <BLANKLINE>
     """
-    body = f"{text}\n".encode()
+    body = f"{translate(text)}\n".encode()
     lines = [
         f"HTTP/1.1 {status} {HTTPStatus(status).phrase}",
         "Content-Type: text/plain; charset=utf-8",

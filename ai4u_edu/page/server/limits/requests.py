@@ -14,6 +14,7 @@ import h11
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.connections import Connections
 from ai4u_edu.page.server.limits.plain_response import plain_response
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS, Timeouts
@@ -92,7 +93,7 @@ class RequestProtocol(H11Protocol):
         error = sys.exception()  # uvicorn calls this in an except clause
         hint = error.error_status_hint if isinstance(error, h11.RemoteProtocolError) else 400
         if hint == HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE:
-            msg = "expected a request whose address and headers are shorter, such as its cookies"
+            msg = _("expected a request whose address and headers are shorter, such as its cookies")
         self.end(plain_response(hint, msg))
 
     def shutdown(self) -> None:
@@ -167,7 +168,10 @@ class RequestProtocol(H11Protocol):
         elif self.conn.their_state is h11.SEND_BODY and self.cycle.response_started:
             self.transport.abort()  # it was answered without its body
         else:
-            expected = f"expected the whole request within {self._timeouts.request:g} s"
+            expected = _(
+                "expected the whole request within {seconds} s",
+                seconds=f"{self._timeouts.request:g}",
+            )
             self.end(plain_response(HTTPStatus.REQUEST_TIMEOUT, expected))
 
     def _watch_reader(self) -> None:

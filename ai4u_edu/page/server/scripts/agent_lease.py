@@ -5,10 +5,11 @@ from collections.abc import Callable
 from secrets import token_hex
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten
+from ai4u_edu.base.errors import AI4UError, NameNotFoundError, shorten, text_of
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.remote import RemoteBrain
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.page.server.loop_queue import LoopQueue
 from ai4u_edu.page.server.scripts.outbox import Outbox
 from ai4u_edu.page.server.scripts.report import ScriptLog
@@ -109,7 +110,7 @@ class AgentLease:
                 self._runner.submit(lambda: self._install_brain(title))
             )
         except RefusalError as refusal:
-            self.release(str(refusal))
+            self.release(text_of(refusal))
             raise
         except (AI4UError, asyncio.CancelledError) as error:
             self.release(_("it could not be taken"))
@@ -166,7 +167,7 @@ class AgentLease:
         try:
             self.session.subset = ObservationSubset(self.agent, self._hello.keys)
         except NameNotFoundError as error:
-            raise RefusalError("unknown_key", str(error)) from None
+            raise RefusalError("unknown_key", text_of(error)) from None
         self._before = before = self.agent.brain
         self._brain = RemoteBrain.with_link(
             self.session,
@@ -216,7 +217,7 @@ class AgentLease:
     def _on_brain_closed(self, reason: str) -> None:
         """Release the agent after another brain took its place, or the world ended."""
         if not self.is_released and self.session.outbox is not None:
-            self.session.outbox.send(native.encode(native.Bye(reason)))
+            self.session.outbox.send_bye(reason)
         self.release(reason)
 
     def _mark_lost(self) -> None:
@@ -249,9 +250,13 @@ def _check_lockstep(rules: Rules, agents: int) -> None:
     """Raise a RefusalError if the world may not wait for a script."""
     if rules.lockstep or (rules.lockstep is None and agents == 1):
         return
-    wait = "the world wait" if agents == 1 else f"all {agents} agents of this world wait"
-    raise RefusalError(
-        "lockstep_refused",
-        f"expected mode='realtime' (ai4u-edu bridge --realtime), got 'lockstep', in which a script "
-        f"has {wait} for it; whoever runs the world has to allow that (ai4u-edu play --lockstep)",
+    text = ngettext(
+        "expected mode='realtime' (ai4u-edu bridge --realtime), got 'lockstep', in which a script "
+        "has the world wait for it; whoever runs the world has to allow that "
+        "(ai4u-edu play --lockstep)",
+        "expected mode='realtime' (ai4u-edu bridge --realtime), got 'lockstep', in which a script "
+        "has all {n} agents of this world wait for it; whoever runs the world has to allow that "
+        "(ai4u-edu play --lockstep)",
+        agents,
     )
+    raise RefusalError("lockstep_refused", text)

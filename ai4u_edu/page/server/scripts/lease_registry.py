@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import suggest
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.loop_queue import LoopQueue, queue_here
 from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
 from ai4u_edu.page.server.scripts.outbox import Outbox
@@ -57,7 +58,11 @@ class LeaseRegistry:
         elif hello.session:
             raise RefusalError(
                 "session_over",
-                f"session {hello.session!r} of agent {agent.id!r} is over; connect again",
+                _(
+                    "session {session!r} of agent {agent!r} is over; connect again",
+                    session=hello.session,
+                    agent=agent.id,
+                ),
             )
         elif lease is not None:
             raise RefusalError("agent_taken", self._taken(agent))
@@ -76,26 +81,35 @@ class LeaseRegistry:
         await lease.claimed.wait()
         if lease.is_released:
             agent = lease.agent.id
-            raise RefusalError("ended", f"agent {agent!r} could not be taken; connect again")
+            text = _("agent {agent!r} could not be taken; connect again", agent=agent)
+            raise RefusalError("ended", text)
         if lease.outbox is not None and lease.outbox is not outbox:
-            text = "the session goes on over another connection"
+            text = _("the session goes on over another connection")
             lease.outbox.close_with_problem("taken_over", text)
 
     def _check(self, hello: native.Hello, is_authenticated: bool) -> None:
         if hello.version != native.VERSION:
-            raise RefusalError("version", wrong_version(f"version {native.VERSION}", hello.version))
+            expected = _("version {n}", n=native.VERSION)
+            raise RefusalError("version", wrong_version(expected, str(hello.version)))
         is_known = is_authenticated or is_same_secret(self._rules.token, hello.token)
         if self._rules.token and not is_known:
-            got = "another one" if hello.token else "none"
+            got = _("another one") if hello.token else _("none")
             raise RefusalError(
                 "bad_token",
-                f"expected this world's token, got {got}; take the whole address that its terminal "
-                "shows, as in connect('http://teacher:8080/?token=...')",
+                _(
+                    "expected this world's token, got {got}; take the whole address that its "
+                    "terminal shows, as in connect('http://teacher:8080/?token=...')",
+                    got=got,
+                ),
             )
         if len(hello.secret) < MIN_SECRET_CHARS:
             raise RefusalError(
                 "malformed",
-                f"secret: expected at least {MIN_SECRET_CHARS} characters, got {len(hello.secret)}",
+                _(
+                    "secret: expected at least {least} characters, got {got}",
+                    least=MIN_SECRET_CHARS,
+                    got=len(hello.secret),
+                ),
             )
 
     def _remove(self, lease: AgentLease) -> None:
@@ -110,22 +124,32 @@ class LeaseRegistry:
             if agent.id == agent_id:
                 return agent
         known = [agent.id for agent in agents]
-        asked = f"no agent has the id {agent_id!r}" if agent_id else "which agent? none was named"
-        raise RefusalError("unknown_agent", f"{asked}; {suggest(agent_id, known)}")
+        hint = suggest(agent_id, known)
+        text = _("which agent? none was named; {hint}", hint=hint)
+        if agent_id:
+            text = _("no agent has the id {id!r}; {hint}", id=agent_id, hint=hint)
+        raise RefusalError("unknown_agent", text)
 
     def _taken(self, agent: BasicAgent) -> str:
         """Return the text for a script whose agent another one has."""
         free = [each.id for each in self._runner.sim.agents if each.id not in self._leases]
-        others = f"free are {', '.join(map(repr, free))}" if free else "no other is free"
-        return (
-            f"agent {agent.id!r} is driven by another script; {others}; an agent is free when its "
-            f"script ends, or {self._rules.grace:g} s after the connection is lost"
+        others = _("no other is free")
+        if free:
+            others = _("free are {names}", names=", ".join(map(repr, free)))
+        return _(
+            "agent {agent!r} is driven by another script; {others}; an agent is free when its "
+            "script ends, or {seconds} s after the connection is lost",
+            agent=agent.id,
+            others=others,
+            seconds=f"{self._rules.grace:g}",
         )
 
 
-def wrong_version(expected: str, got: object) -> str:
+def wrong_version(expected: str, got: str) -> str:
     """Return the text for a script whose version of the protocol is another one."""
-    return (
-        f"expected {expected}, got {got}; install the ai4u-edu that the world has "
-        "(pip install -U ai4u-edu, on both machines)"
+    return _(
+        "expected {expected}, got {got}; install the ai4u-edu that the world has "
+        "(pip install -U ai4u-edu, on both machines)",
+        expected=expected,
+        got=got,
     )

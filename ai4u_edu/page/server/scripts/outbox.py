@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from starlette.types import Message, Send
 
+from ai4u_edu.locale import catalogue
 from ai4u_edu.wire import native
 from ai4u_edu.wire.json_form import JsonForm
 from ai4u_edu.wire.validation import WireError
@@ -34,6 +35,7 @@ class Outbox:
         self._form = form
         self._queue: deque[Message] = deque()
         self._is_not_empty = asyncio.Event()
+        self._catalogue = catalogue()
         self.is_closing = False
 
     def send(self, frame: bytes) -> None:
@@ -45,16 +47,29 @@ class Outbox:
         elif self._queue or self._write is None or not self._write(frame):
             self._put({"type": "websocket.send", "bytes": frame})
 
+    def send_problem(self, problem: native.Problem) -> None:
+        """Send a problem in the script's language: that of the request for its connection."""
+        text = self._catalogue.translate(problem.text)
+        self.send(native.encode(native.Problem(problem.code, text, problem.seq)))
+
+    def send_bye(self, reason: str) -> None:
+        """Send the end of the session, with its reason in the script's language."""
+        self.send(native.encode(native.Bye(self._catalogue.translate(reason))))
+
     def close(self, code: int, reason: str) -> None:
         """Close the connection when all frames have been sent."""
         if not self.is_closing:
             self.is_closing = True
-            short = reason.encode()[:MAX_REASON_BYTES].decode(errors="ignore")
+            short = (
+                self._catalogue.translate(reason)
+                .encode()[:MAX_REASON_BYTES]
+                .decode(errors="ignore")
+            )
             self._put({"type": "websocket.close", "code": code, "reason": short})
 
     def close_with_problem(self, code: str, text: str) -> None:
         """Send a problem, and close the connection with its code."""
-        self.send(native.encode(native.Problem(code, text, 0)))
+        self.send_problem(native.Problem(code, text, 0))
         self.close(native.PROBLEMS[code], text)
 
     async def run(self) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 from ai4u_edu.blocks import Answer, Command
 from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, ResetRequest
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.loop_queue import LoopQueue
 from ai4u_edu.page.server.scripts.exchange import Exchange, Turn
 from ai4u_edu.page.server.scripts.outbox import Outbox
@@ -36,7 +37,7 @@ class Session:
         *,
         may_seed: bool = True,
         queue: LoopQueue | None = None,
-        report_mistake: Callable[[str], object] = lambda _: None,
+        report_mistake: Callable[[str], object] = lambda _reason: None,
     ) -> None:
         self.state = LinkState.CONNECTED
         self.reason = ""
@@ -111,7 +112,7 @@ class Session:
         self._report_mistake(reason)
         may_answer_again = self.exchange.ask_again(observation)
         problem = native.Problem("bad_action", reason, observation.number)
-        self._call_in_loop(self._send, native.encode(problem))
+        self._call_in_loop(self._send_problem, problem)
         return may_answer_again
 
     def idle(self) -> None:
@@ -214,11 +215,15 @@ class Session:
         if self.outbox is not None:
             self.outbox.send(frame)
 
+    def _send_problem(self, problem: native.Problem) -> None:
+        if self.outbox is not None:
+            self.outbox.send_problem(problem)
+
     def _call_in_loop(self, function: Callable[[Any], None], argument: object) -> None:
         try:
             self._queue.call(function, argument)
         except RuntimeError:  # the server has ended before the world
-            self.state, self.reason = LinkState.LOST, "the server has ended"
+            self.state, self.reason = LinkState.LOST, _("the server has ended")
 
 
 def _replaces(observation: Observation, asked: Observation) -> bool:
@@ -268,21 +273,27 @@ def _find_problem(
     """
     match message:
         case native.Action() if asked.done:
-            text = "the episode is over; expected a reset"
+            text = _("the episode is over; expected a reset")
             return native.Problem("episode_over", text, asked.number)
         case native.Action(episode=episode, step=step):
             if (episode, step) == (asked.episode, asked.steps):
                 return None
-            text = (
-                f"percept {asked.number} is of episode {asked.episode}, step {asked.steps}; "
-                f"got an action for episode {episode}, step {step}"
+            text = _(
+                "percept {n} is of episode {episode}, step {step}; "
+                "got an action for episode {other_episode}, step {other_step}",
+                n=asked.number,
+                episode=asked.episode,
+                step=asked.steps,
+                other_episode=episode,
+                other_step=step,
             )
             return native.Problem("bad_action", text, asked.number)
         case native.Reset(seed=int()) if not may_seed:
-            text = (
+            text = _(
                 "expected a reset without a seed, which begins an episode for this agent; with "
-                f"one it would begin for all {agents} agents, and whoever runs the world has to "
-                "allow that (ai4u-edu play --seeded-resets)"
+                "one it would begin for all {agents} agents, and whoever runs the world has to "
+                "allow that (ai4u-edu play --seeded-resets)",
+                agents=agents,
             )
             return native.Problem("seed_refused", text, asked.number)
     return None

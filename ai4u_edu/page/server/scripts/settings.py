@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.native import OnMissing
 
 MAX_GRACE_S = 600.0
@@ -45,7 +46,11 @@ class Rules:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.grace) and 0 <= self.grace <= MAX_GRACE_S):
             raise SetupError(
-                f"grace: expected a number of seconds from 0 to {MAX_GRACE_S:g}, got {self.grace}"
+                _(
+                    "grace: expected a number of seconds from 0 to {most}, got {got}",
+                    most=f"{MAX_GRACE_S:g}",
+                    got=self.grace,
+                )
             )
         if not MIN_RECEIVE_TIMEOUT_MS <= self.receive_timeout <= MAX_RECEIVE_TIMEOUT_MS:
             raise SetupError(

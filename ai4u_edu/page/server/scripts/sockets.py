@@ -8,6 +8,8 @@ from urllib.parse import parse_qs
 from starlette.requests import HTTPConnection
 from starlette.types import Message, Receive, Scope, Send
 
+from ai4u_edu.base.errors import text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.frames import EXTENSION, FramesProtocol
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
@@ -83,13 +85,13 @@ class RemoteSockets:
             frames.listener = connection.hear_answer
         try:
             if given not in FORMATS:
-                text = f"format: expected {' or '.join(FORMATS)}, got {shown(given)}"
+                text: str = _("format: expected msgpack or json, got {name}", name=shown(given))
                 outbox.close_with_problem("malformed", text)
             elif is_known:
                 await connection.listen()
             else:
-                spoken = ", ".join(scope["subprotocols"]) or "none"
-                text = wrong_version(f"subprotocol {native.SUBPROTOCOL!r}", spoken)
+                spoken: str = ", ".join(scope["subprotocols"]) or _("none")
+                text = wrong_version(_("subprotocol {name!r}", name=native.SUBPROTOCOL), spoken)
                 outbox.close_with_problem("version", text)
             if outbox.is_closing:
                 # not wait_for, which in Python 3.11 loses a cancellation that comes with the end
@@ -142,7 +144,8 @@ class _ScriptConnection:
             try:
                 message = await (self._receive() if self.lease else self._receive_hello())
             except TimeoutError:
-                text = f"expected a hello within {self._hello_timeout:g} s"
+                seconds = f"{self._hello_timeout:g}"
+                text = _("expected a hello within {seconds} s", seconds=seconds)
                 self._outbox.close_with_problem("malformed", text)
                 return
             if message["type"] != "websocket.receive":
@@ -150,13 +153,15 @@ class _ScriptConnection:
             frame = message.get("bytes") or (message.get("text") or "").encode()
             if len(frame) > native.MAX_SCRIPT_FRAME_BYTES:
                 most = native.MAX_SCRIPT_FRAME_BYTES
-                text = f"expected at most {most} bytes in a frame, got {len(frame)}"
+                text = _(
+                    "expected at most {most} bytes in a frame, got {got}", most=most, got=len(frame)
+                )
                 self._outbox.close_with_problem("too_large", text)
                 return
             try:
                 heard = native.decode(self._form.frame_of(frame) if self._form else frame)
             except WireError as error:
-                self._complain("bad_message", str(error))
+                self._complain("bad_message", text_of(error))
                 continue
             await self._handle(heard)
 
@@ -177,7 +182,7 @@ class _ScriptConnection:
         before = session.ignored
         problem = session.hear(answer)
         if problem is not None:
-            self._outbox.send(native.encode(problem))
+            self._outbox.send_problem(problem)
         if problem is not None or is_request_for_time(answer) or session.ignored > before:
             self._limit_rate()
         self._malformed = 0
@@ -197,12 +202,18 @@ class _ScriptConnection:
                 self.lease.release(reason)
             case _:
                 kind = type(message).__name__.lower()
-                expected = "an action, a reset or a bye" if self.lease else "a hello"
-                self._complain("bad_message", f"expected {expected}, got a {kind}")
+                text = _("expected a hello, got a {message}", message=kind)
+                if self.lease:
+                    text = _(
+                        "expected an action, a reset or a bye, got a {message}",
+                        message=kind,
+                    )
+                self._complain("bad_message", text)
 
     async def _acquire_lease(self, hello: native.Hello) -> None:
         if self._hello not in (None, hello):
-            self._complain("bad_message", "expected one hello in a connection, got another one")
+            text = _("expected one hello in a connection, got another one")
+            self._complain("bad_message", text)
             return
         self._hello = hello
         try:
@@ -211,21 +222,29 @@ class _ScriptConnection:
             )
         except RefusalError as refusal:
             if refusal.code != "session_over":  # a client begins another session by itself
-                self._report.note_mistake(refusal.code, f"a script was refused: {refusal}")
-            self._outbox.close_with_problem(refusal.code, str(refusal))
+                text = _("a script was refused: {problem}", problem=text_of(refusal))
+                self._report.note_mistake(refusal.code, text)
+            self._outbox.close_with_problem(refusal.code, text_of(refusal))
 
     def _complain(self, code: str, text: str) -> None:
         """Send a problem; close the connection after too many in a row."""
-        self._report.note_mistake(code, f"a script sent what has no effect: {text}")
+        line = _("a script sent what has no effect: {problem}", problem=text)
+        self._report.note_mistake(code, line)
         self._malformed += 1
         if self._malformed >= MAX_MALFORMED_FRAMES:
-            text = f"{MAX_MALFORMED_FRAMES} malformed frames in a row; the last: {text}"
+            text = _(
+                "{n} malformed frames in a row; the last: {problem}",
+                n=MAX_MALFORMED_FRAMES,
+                problem=text,
+            )
             self._outbox.close_with_problem("malformed", text)
             return
-        self._outbox.send(native.encode(native.Problem(code, text, 0)))
+        self._outbox.send_problem(native.Problem(code, text, 0))
         self._limit_rate()
 
     def _limit_rate(self) -> None:
         if self._rate.take():
-            text = f"expected at most {MAX_STRAY_FRAMES_PER_S} frames a second that answer nothing"
+            text = _(
+                "expected at most {n} frames a second that answer nothing", n=MAX_STRAY_FRAMES_PER_S
+            )
             self._outbox.close_with_problem("too_fast", text)

@@ -10,6 +10,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Actuator, Percept
 from ai4u_edu.blocks.percept import Slot
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire import native
 from ai4u_edu.wire.texts import pack_texts
 
@@ -30,7 +31,10 @@ class ObservationSubset:
         known = (*layout.slots, *layout.texts)
         for key in keys:
             if key not in known:
-                raise NameNotFoundError(f"there is no sensor called {key!r}; {suggest(key, known)}")
+                hint = suggest(key, known)
+                raise NameNotFoundError(
+                    _("there is no sensor called {key!r}; {hint}", key=key, hint=hint)
+                )
         wanted = set(keys or known)
         sensors = {sensor.perception_key: sensor for sensor in agent.bound_blocks.sensors}
         self._slots = [slot for key, slot in layout.slots.items() if key in wanted]

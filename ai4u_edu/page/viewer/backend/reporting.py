@@ -4,8 +4,9 @@ from collections.abc import Awaitable, Callable, Coroutine
 from functools import wraps
 from typing import Any, TypeVar
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.locale import translate
 
 E = TypeVar("E")
 _error_log = ErrorLog()
@@ -17,7 +18,7 @@ def describe_error(error: Exception) -> str:
     An error that is no AI4UError is a bug, and is written to stderr once.
     """
     if isinstance(error, AI4UError):
-        return str(error)
+        return translate(text_of(error))
     _error_log.write(error)
     return f"{type(error).__name__}: {error}"
 

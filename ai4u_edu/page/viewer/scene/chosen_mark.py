@@ -8,6 +8,7 @@ import numpy as np
 from viser import BatchedMeshHandle, FrameHandle, LabelHandle, LineSegmentsHandle
 
 from ai4u_edu.base.colors import rgb
+from ai4u_edu.locale import translate
 from ai4u_edu.page.viewer.scene.arena import arena_size
 from ai4u_edu.page.viewer.scene.drags import DragAction, Goal, Thing, edge_of, outline_of
 from ai4u_edu.page.viewer.scene.geometry import cap, circle, grow, heading_wxyz, prism, segments
@@ -178,7 +179,7 @@ class ChosenMark:
         if self._value is not None:
             self._value.visible = goal is not None and bool(goal.words)
             if goal is not None:
-                self._value.text = goal.words
+                self._value.text = translate(goal.words)
 
     def _lines(self, name: str, ink: Rgb, thickness: float) -> LineSegmentsHandle:
         nothing = np.zeros((1, 2, 3), np.float32)

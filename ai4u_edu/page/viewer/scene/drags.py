@@ -4,6 +4,7 @@ import math
 from enum import Enum
 from typing import NamedTuple
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import (
     AreaDescription,
     BodyDescription,
@@ -53,14 +54,14 @@ class Goal(NamedTuple):
     def words(self) -> str:
         """The size, height or heading in words; empty for a move."""
         if self.height is not None:
-            return f"{self.height:g} m high"
+            return _("{height} m high", height=f"{self.height:g}")
         if self.heading_deg is not None:
             return f"{self.heading_deg:g}°"
         match self.shape:
             case BoxShape(size=(length, width)):
                 return f"{length:g} x {width:g} m"
             case CircleShape(radius=radius):
-                return f"{2 * radius:g} m wide"
+                return _("{width} m wide", width=f"{2 * radius:g}")
             case CapsuleShape(length=length, radius=radius):
                 return f"{length + 2 * radius:g} x {2 * radius:g} m"
         return ""

@@ -3,6 +3,8 @@
 from viser import FrameHandle, LabelHandle, SceneApi
 
 from ai4u_edu.base.colors import rgb
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.face import face, shell
 from ai4u_edu.page.viewer.scene.geometry import heading_wxyz
@@ -84,9 +86,11 @@ class _Ghost:
         # a bit later, because its times are rounded
         now = drive.path.at(snapshot.time / drive.stretch + 1e-4)
         is_fair = snapshot.seed == drive.episode.seed
-        text = drive.label if is_fair else f"{drive.label} of another start"
+        text = drive.label
+        if not is_fair:
+            text = _("{name} of another start", name=drive.label)
         for body in self.bodies:
-            body.move(now.get(body.name), layers, text)
+            body.move(now.get(body.name), layers, translate(text))
 
     def remove(self) -> None:
         self.bodies = []

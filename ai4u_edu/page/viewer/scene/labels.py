@@ -11,6 +11,7 @@ import numpy as np
 from viser import BatchedMeshHandle, LabelHandle, SceneApi
 
 from ai4u_edu.base.colors import rgb
+from ai4u_edu.locale import translate
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
 from ai4u_edu.page.viewer.scene.arena import arena_size, camera_bounds
 from ai4u_edu.page.viewer.scene.framing import frame_arena
@@ -142,7 +143,7 @@ class Labels:
             y = body.y + dy + label.reach * math.sin(down)
             place = _PlacedLabel(
                 label,
-                f"{label.text}  {problem}" if problem else label.text,
+                f"{label.text}  {translate(problem)}" if problem else label.text,
                 (x, y, body.z),  # at its foot: a tilted camera would see its face covered
                 is_visible=not body.fallen and (not is_driven or bool(problem)),
                 rank=0 if problem else 1 if body.name in problems else 2,
