@@ -67,6 +67,9 @@ PAGES = {
             "jupyterhub",
             "security",
             "from-ai4u",
+            "cli",
+            "lesson-checks",
+            "api",
         )
     },
 }

@@ -46,7 +46,7 @@ def add_blocks(site: Staging) -> None:
         index.append(kind)
         site.write(f"{FOLDER}/{kind}.rst", _list_of(site, titles[kind], members))
         for cls in members:
-            page = page_of(cls)
+            page = page_of(site, cls)
             site.write(f"{FOLDER}/{cls.__name__}.rst", page.text)
             if page.picture is not None:
                 site.write(f"{FOLDER}/{cls.__name__}.png", page.picture)
@@ -78,7 +78,7 @@ def _list_of(site: Staging, title: str, members: Iterable[type[Block]]) -> str:
     )
 
 
-def page_of(cls: type[Block]) -> Page:
+def page_of(site: Staging, cls: type[Block]) -> Page:
     """Return the page of a block, after running its example.
 
     Raises:
@@ -95,26 +95,31 @@ def page_of(cls: type[Block]) -> Page:
     members = f":members: {', '.join(methods)}" if methods else ""
     shown = [
         rst.title(cls.__name__),
-        _in_the_page(cls),
+        _in_the_page(site, cls),
         f".. autoclass:: ai4u_edu.{cls.__name__}(**parameters)\n   {members}\n",
     ]
     if picture is not None:
-        alt = "The world from above" + (" and the reading" if issubclass(cls, Sensor) else "")
+        if issubclass(cls, Sensor):
+            alt = site.words("The world from above and the reading, for {name} as in the example")
+        else:
+            alt = site.words("The world from above, for {name} as in the example")
         shown.append(
-            f".. image:: {cls.__name__}.png\n   :alt: {alt}, for {cls.__name__} as in the example\n"
+            f".. image:: {cls.__name__}.png\n   :alt: {alt.format(name=cls.__name__)}\n"
             "   :class: ai4u-picture\n"
         )
-    shown.append(_parameters(cls))
+    shown.append(_parameters(site, cls))
     if example is not None:
-        shown += [_gives(cls, example), _example(example)]
+        shown += [_gives(site, cls, example), _example(site, example)]
     return Page(cls, "\n".join(filter(None, shown)), picture)
 
 
-def _in_the_page(cls: type[Block]) -> str:
+def _in_the_page(site: Staging, cls: type[Block]) -> str:
     words = words_of(cls.__name__)
     if words.picture == "own":
         return ""
-    return f"In the page: **{words.title}**, under “{words.question}”\n"
+    where = site.words("In the page: **{title}**, under “{question}”")
+    title, question = site.translated(words.title), site.translated(words.question)
+    return where.format(title=title, question=question) + "\n"
 
 
 def own_methods(cls: type[Block]) -> list[str]:
@@ -127,26 +132,30 @@ def own_methods(cls: type[Block]) -> list[str]:
     ]
 
 
-def _parameters(cls: type[Block]) -> str:
+def _parameters(site: Staging, cls: type[Block]) -> str:
     common = set(_kind_of(cls).parameters())
     rows = parameter_rows(cls)
     own = [row for row in rows if row.name not in common]
     shared = [row for row in rows if row.name in common]
-    parts = [rst.title("Parameters", "-")]
-    parts.append(rst.parameters(own) if own else "It has none of its own.\n")
+    parts = [rst.title(site.words("Parameters"), "-")]
+    header = (
+        site.words("name"),
+        site.words("type"),
+        site.words("default"),
+        site.words("unit"),
+        site.words("what it is"),
+    )
+    parts.append(
+        rst.parameters(own, header) if own else site.words("It has none of its own.") + "\n"
+    )
     if shared:
-        parts.append(f".. rubric:: Parameters that all {_plural(cls)} have\n")
-        parts.append(rst.parameters(shared))
+        parts.append(".. rubric:: " + site.words("Parameters of all blocks of this kind") + "\n")
+        parts.append(rst.parameters(shared, header))
     return "\n".join(parts)
 
 
 def _kind_of(cls: type[Block]) -> type[Block]:
     return next((kind for kind in KINDS.values() if issubclass(cls, kind)), Block)
-
-
-def _plural(cls: type[Block]) -> str:
-    kinds = {kind: name for name, kind in KINDS.items()}
-    return kinds.get(_kind_of(cls), "blocks")
 
 
 def _picture(cls: type[Block], example: Example | None) -> bytes | None:
@@ -172,46 +181,58 @@ def _picture_without_script(cls: type[Sensor]) -> bytes | None:
     return block_pictures.sensor_picture(sim, sensor)
 
 
-def _gives(cls: type[Block], example: Example) -> str:
+def _gives(site: Staging, cls: type[Block], example: Example) -> str:
     """Return the table of what a sensor reads or an actuator takes, as in the example."""
     if issubclass(cls, Sensor):
-        return _readings(cls, example.agent)
-    return _action(cls, example.agent) if issubclass(cls, Actuator) else ""
+        return _readings(site, cls, example.agent)
+    return _action(site, cls, example.agent) if issubclass(cls, Actuator) else ""
 
 
-def _readings(cls: type[Sensor], agent: BasicAgent) -> str:
+def _readings(site: Staging, cls: type[Sensor], agent: BasicAgent) -> str:
     sensor = next(each for each in agent.sensors if type(each) is cls)
     infos = block_info_of(agent).sensor_infos
     info = next(each for each in infos if each.key == sensor.perception_key)
-    heading, reading = rst.title("What it reads", "-"), agent.percept[info.key]
+    heading, reading = rst.title(site.words("What it reads"), "-"), agent.percept[info.key]
     if isinstance(reading, str | tuple):
-        return f"{heading}\nText, under the key ``{info.key}``.\n"
+        text = site.words("Text, under the key ``{key}``.").format(key=info.key)
+        return f"{heading}\n{text}\n"
     array = np.asarray(reading)
-    shape = f" of shape ``{array.shape}``" if array.shape else ""
-    words = (
-        f"With the parameters of the example: ``{array.dtype}``{shape}, under the key "
-        f"``{info.key}``.\n"
-    )
-    rows = _number_rows(info.slots, info.low.tolist(), info.high.tolist(), units_of(info))
+    if array.shape:
+        words = site.words(
+            "With the parameters of the example: ``{dtype}`` of shape ``{shape}``, under the key "
+            "``{key}``."
+        )
+    else:
+        words = site.words(
+            "With the parameters of the example: ``{dtype}``, under the key ``{key}``."
+        )
+    words = words.format(dtype=array.dtype, shape=array.shape, key=info.key) + "\n"
+    rows = _number_rows(site, info.slots, info.low.tolist(), info.high.tolist(), units_of(info))
     return "\n".join([heading, words, rows])
 
 
-def _action(cls: type[Actuator], agent: BasicAgent) -> str:
+def _action(site: Staging, cls: type[Actuator], agent: BasicAgent) -> str:
     actuator = next(each for each in agent.actuators if type(each) is cls)
     infos = block_info_of(agent).actuator_infos
     info = next(each for each in infos if each.name == actuator.action_name)
-    heading, count = rst.title("What it takes", "-"), len(info.components)
+    heading, count = rst.title(site.words("What it takes"), "-"), len(info.components)
     if not count:
-        return f"{heading}\nNo action: it works by itself.\n"
-    kind = "One whole number" if info.is_choice else f"{count} numbers" if count > 1 else "A number"
+        return f"{heading}\n" + site.words("No action: it works by itself.") + "\n"
+    if info.is_choice:
+        kind = site.words("One whole number, under the name ``{name}``.")
+    elif count == 1:
+        kind = site.words("A number, under the name ``{name}``.")
+    else:
+        kind = site.words("{count} numbers, under the name ``{name}``.")
+    kind = kind.format(count=count, name=info.name) + "\n"
     names = tuple(each.name for each in info.components)
     low, high = ([getattr(each, end) for each in info.components] for end in ("low", "high"))
-    rows = _number_rows(names, low, high, [""] * count)
-    return "\n".join([heading, f"{kind}, under the name ``{info.name}``.\n", rows])
+    rows = _number_rows(site, names, low, high, [""] * count)
+    return "\n".join([heading, kind, rows])
 
 
 def _number_rows(
-    names: tuple[str, ...], low: list[float], high: list[float], units: list[str]
+    site: Staging, names: tuple[str, ...], low: list[float], high: list[float], units: list[str]
 ) -> str:
     """Return a table of numbers; many without names get one row for each range."""
     if not low:
@@ -229,7 +250,14 @@ def _number_rows(
             (_places(low, high, each), "", f"{each[0]:g}", f"{each[1]:g}", units[0])
             for each in ranges
         ]
-    return rst.table(("index", "number", "lowest", "highest", "unit"), rows, (1, 3, 1, 1, 1))
+    header = (
+        site.words("index"),
+        site.words("number"),
+        site.words("lowest"),
+        site.words("highest"),
+        site.words("unit"),
+    )
+    return rst.table(header, rows, (1, 3, 1, 1, 1))
 
 
 def _places(low: list[float], high: list[float], bounds: tuple[float, float]) -> str:
@@ -247,13 +275,13 @@ def _places(low: list[float], high: list[float], bounds: tuple[float, float]) ->
     return ", ".join(map(str, places[:3])) + (", ..." if len(places) > 3 else "")
 
 
-def _example(example: Example) -> str:
+def _example(site: Staging, example: Example) -> str:
     printed = textwrap.indent(example.printed.rstrip(), "   ")
     return "\n".join(
         [
-            rst.title("Example", "-"),
+            rst.title(site.words("Example"), "-"),
             rst.code(example.source),
-            "It prints::",
+            site.words("It prints") + "::",
             "",
             printed,
             "",

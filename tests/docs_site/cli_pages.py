@@ -3,7 +3,9 @@
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 
+from ai4u_edu.cli.main import help_texts
 from tests.docs_site.staging import ROOT, Staging
 
 PROGRAM = "ai4u-edu"
@@ -11,11 +13,22 @@ PROGRAM = "ai4u-edu"
 
 def add_commands(site: Staging) -> None:
     """Write the reference of all commands under the page of the command line."""
-    site.append("cli.md", commands())
+    text = commands(site.translated)
+    headings = {
+        "Arguments": site.words("Arguments"),
+        "Commands": site.words("Commands"),
+        "Options": site.words("Options"),
+    }
+    for english, heading in headings.items():
+        text = text.replace(f"**{english}**:", f"**{heading}**:")
+    site.append("cli.md", text)
 
 
-def commands() -> str:
+def commands(translate: Callable[[str], str]) -> str:
     """Return the reference of all commands, as Markdown.
+
+    Args:
+        translate: returns the translation of a help text, or the text.
 
     Typer makes it in a process of its own, since it reads the width of lines from the environment.
     Sphinx's extension for Click doesn't know the copy of Click that newer versions of Typer have.
@@ -29,6 +42,9 @@ def commands() -> str:
         check=True,
     )
     text = re.sub(r"\A# .*\n", "", run.stdout)
+    for english in sorted(help_texts(), key=len, reverse=True):
+        own = translate(english).strip().replace("\\", r"\\")  # no escapes of the template
+        text = re.sub(rf"(?m)(^|: ){re.escape(english.strip())}", rf"\1{own}", text)
     # the console's prompt would be copied with the command
     text = re.sub(r"^```console\n\$ ", "```text\n", text, flags=re.MULTILINE)
     text = text.replace("**Usage**:\n\n", "")

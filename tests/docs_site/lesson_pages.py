@@ -11,11 +11,16 @@ from tests.docs_site.staging import Staging
 
 def add_lesson_checks(site: Staging) -> None:
     """Write the checks of all exercises under the page that introduces them."""
-    site.append("lesson-checks.md", "\n".join(_page()))
+    site.append("lesson-checks.md", "\n".join(_page(site)))
 
 
-def section(exercise: Exercise, answers: Answers) -> str:
+def section(site: Staging, exercise: Exercise, answers: Answers) -> str:
     """Return an exercise's check as Markdown.
+
+    Args:
+        site: its language is that of titles and hints.
+        exercise: the exercise.
+        answers: the answers that are tried on it.
 
     Raises:
         ValueError: a description is missing: the title, the check's docstring, the hint of a
@@ -31,29 +36,33 @@ def section(exercise: Exercise, answers: Answers) -> str:
     ]
     return "\n".join(
         [
-            f"### {exercise.id} {exercise.title}\n",
+            f"### {exercise.id} {site.translated(exercise.title)}\n",
             f"{description}\n",
-            *_table(("diagnosis", "hint"), _hints(exercise.id, known)),
-            *_table(("kind", "answer", "diagnosis"), rows),
+            *_hints(site, exercise.id, known),
+            *_table((site.words("kind"), site.words("answer"), site.words("diagnosis")), rows),
         ]
     )
 
 
-def _page() -> Iterator[str]:
-    yield "## Mistakes that may occur in every exercise\n"
-    yield from _table(("diagnosis", "hint"), _hints("", COMMON))
+def _page(site: Staging) -> Iterator[str]:
+    yield "## " + site.words("Mistakes that may occur in every exercise") + "\n"
+    yield from _hints(site, "", COMMON)
     for lesson in lessons():
-        yield f"## Lesson {lesson.number}\n"
+        yield "## " + site.words("Lesson {number}").format(number=lesson.number) + "\n"
         for name in lesson.exercises:
             if not is_ticket(name):
-                yield section(find(name), answers_to(name))
+                yield section(site, find(name), answers_to(name))
 
 
-def _hints(exercise: str, hints: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+def _hints(site: Staging, exercise: str, hints: Mapping[str, str]) -> Iterator[str]:
+    """Yield the lines of the table of an exercise's hints; of the common ones without its id."""
+    rows = []
     for name, text in hints.items():
         if not text:
             raise ValueError(f"exercise {exercise}: expected a hint of the diagnosis {name!r}")
-        yield f"`{diagnosis_id(exercise, name, hints if exercise else ())}`", text
+        diagnosis = diagnosis_id(exercise, name, hints if exercise else ())
+        rows.append((f"`{diagnosis}`", site.translated(text)))
+    yield from _table((site.words("diagnosis"), site.words("hint")), rows)
 
 
 def _diagnosis(exercise: Exercise, name: str) -> str:

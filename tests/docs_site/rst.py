@@ -42,7 +42,11 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence
     return "\n".join(lines) + "\n"
 
 
-def parameters(rows: Iterable[ParameterRow]) -> str:
+PARAMETERS = ("name", "type", "default", "unit", "what it is")
+"""Titles of the columns of a table of parameters."""
+
+
+def parameters(rows: Iterable[ParameterRow], header: Sequence[str] = PARAMETERS) -> str:
     """Return a table of parameters."""
     cells = [
         (
@@ -54,7 +58,7 @@ def parameters(rows: Iterable[ParameterRow]) -> str:
         )
         for each in rows
     ]
-    return table(("name", "type", "default", "unit", "what it is"), cells, (4, 3, 3, 2, 8))
+    return table(header, cells, (4, 3, 3, 2, 8))
 
 
 def code(source: str, language: str = "python") -> str:

@@ -50,12 +50,18 @@ def _page(site: Staging, name: str, purpose: str, film: Film) -> str:
     scene = Scene.load(name).description
     agents = ", ".join(str(each.get("id", "0")) for each in scene.agents)
     level = site.words("{level}; {minutes} minutes for a person's first time")
+    levels = {
+        "easy": site.words("easy"),
+        "medium": site.words("medium"),
+        "hard": site.words("hard"),
+        None: "",
+    }
     facts = {
         site.words("What it is for"): rst.from_markdown(purpose),
         site.words("Goal"): rst.escaped(site.translated(library_text(scene.goal))),
         site.words("Controls"): rst.escaped(site.translated(library_text(scene.controls))),
         site.words("Rewards"): rst.escaped(site.translated(library_text(scene.rewards))),
-        site.words("Level"): level.format(level=scene.level, minutes=scene.minutes),
+        site.words("Level"): level.format(level=levels[scene.level], minutes=scene.minutes),
         site.words("Agents"): rst.escaped(agents),
         site.words("Environment"): rst.literal(f"ai4u_edu:{env_id(name)}"),
     }
@@ -84,7 +90,7 @@ def _film(site: Staging, name: str, film: Film) -> str:
             "times as fast"
         )
     words = words.format(
-        decisions=film.decisions, seconds=f"{film.seconds:.1f}", speed=f"{film.speed:.1f}"
+        decisions=film.decisions, seconds=site.number(film.seconds), speed=site.number(film.speed)
     )
     alt = site.words("A film of the scene, from above")
     source = f"../{MEDIA}/{name}"

@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
+from babel.numbers import format_decimal
+
 from ai4u_edu.lessons.translation import translated_page
 from ai4u_edu.locale import LESSONS, SOURCE, Catalogue, Text
 from tests.translations import PAGES, SITE, page_translation, translation
@@ -68,6 +70,10 @@ class Staging:
     def words(self, text: str) -> str:
         """Return a text of the site itself in the pages' language; ``text`` is a literal."""
         return self._words(text)
+
+    def number(self, value: float) -> str:
+        """Return a number with one place after the point, as the pages' language writes it."""
+        return format_decimal(value, "0.0", locale=self.language)
 
     def translated(self, text: str) -> str:
         """Return a text of the package in the pages' language.

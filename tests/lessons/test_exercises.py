@@ -19,6 +19,7 @@ from ai4u_edu.lessons.course import course_folder, exercise_ids, is_ticket, less
 from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import EXERCISES, find
 from tests.docs_site.lesson_pages import section
+from tests.docs_site.staging import Staging
 from tests.lessons.verdicts import is_as_wanted
 from tests.lessons.workbook import SLOW, handed_in, tried, try_answer
 
@@ -188,7 +189,7 @@ def test_an_exercise_has_answers_of_all_kinds(exercise: str) -> None:
 
 @pytest.mark.parametrize("exercise", IDS)
 def test_docs_describe_a_check_with_its_diagnoses_and_answers(exercise: str) -> None:
-    text = section(find(exercise), answers_to(exercise))
+    text = section(Staging(Path()), find(exercise), answers_to(exercise))
     assert all(f"| {each.kind} | {each.name} |" in text for each in answers_to(exercise).all)
 
 
@@ -201,7 +202,7 @@ def test_docs_refuse_a_check_without_description(missing: str) -> None:
         "hint": replace(check, hints={**check.hints, "still": ""}),
     }
     with pytest.raises(ValueError, match=r"00\.1: expected a"):
-        section(without[missing], answers_to("00.1"))
+        section(Staging(Path()), without[missing], answers_to("00.1"))
 
 
 @pytest.mark.parametrize("one", lessons(), ids=lambda one: one.number)
