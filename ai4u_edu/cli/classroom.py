@@ -9,7 +9,7 @@ import typer
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli import play_options as o
-from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks
+from ai4u_edu.cli.options import OwnBlocks, finite, load_own_blocks, say
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import translate
 
@@ -126,7 +126,7 @@ def classroom(
             local.class_url = url
             app.state.begin()
             banner = class_banner(join_address(host, url), seats.code, url, token)
-            typer.echo(translate(banner))
+            say(banner)
             if open_page:
                 open_on_desktop(teacher_address(url, token))
 
@@ -171,7 +171,7 @@ def _serve_at_hub(context: typer.Context) -> None:
 
     def announce(url: str) -> None:
         address = f"{url.rstrip('/')}{hub.prefix}"
-        typer.echo(translate(_("The class is a service of the hub: {address}", address=address)))
+        say(_("The class is a service of the hub: {address}", address=address))
 
     with ClassStore(options["folder"], options["max_folder"]) as store:
         rule = RoomRule.parse("each")

@@ -204,7 +204,7 @@ def bridge(
         script_id=script_id,
         patience=patience,
         on_missing=on_missing or "",
-        tell=typer.echo,
+        tell=lambda text: typer.echo(translate(text)),
     )
 
     def asked_to_end(*_: object) -> None:

@@ -9,6 +9,7 @@ import typer
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import MAX_SEED, MAX_TRAINING_SEED
+from ai4u_edu.locale import translate
 
 MAX_EPISODES = 1_000_000
 """Episodes of one evaluation."""
@@ -30,6 +31,11 @@ OwnBlocks = Annotated[
         show_default=False,
     ),
 ]
+
+
+def say(text: str) -> None:
+    """Print a text in the language of the terminal."""
+    typer.echo(translate(text))
 
 
 def finite(value: float | None) -> float | None:

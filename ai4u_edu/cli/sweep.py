@@ -14,7 +14,9 @@ from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.base.seeding import MAX_TRAINING_SEED
 from ai4u_edu.cli import training_options as o
-from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, check_blocks, load_own_blocks
+from ai4u_edu.cli.options import MAX_TRAINING_STEPS, OwnBlocks, check_blocks, load_own_blocks, say
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 if TYPE_CHECKING:
     from ai4u_edu.learn.training.settings import Algorithm
@@ -114,12 +116,16 @@ def sweep(
         folder = out or Path("runs") / f"{name}-sweep"
         plan = _begun(plan, folder)
     if steps is not None and plan.steps is not None and plan.steps > steps:
-        typer.echo(
-            f"{plan.steps} steps and not {steps}, for all trials alike: PPO learns from so many "
-            "decisions at once"
+        say(
+            _(
+                "{steps} steps and not {wanted}, for all trials alike: PPO learns from so "
+                "many decisions at once",
+                steps=plan.steps,
+                wanted=steps,
+            )
         )
     if unlike := plan.unlike_budgets():
-        typer.echo(unlike)
+        say(unlike)
     plan.save(folder)
     _report(_run(plan, folder, engine, address), engine)
 
@@ -143,14 +149,14 @@ def _plan(
     if trials:
         need("sweep", "optuna")
     if not scene:
-        raise SetupError("expected the scene to train in, as in: ai4u-edu sweep box_chase")
+        raise SetupError(_("expected the scene to train in, as in: ai4u-edu sweep box_chase"))
     data = scene_data(scene, own_blocks or ())
     how = settings_for(scene_from(data).description.name, settings)
     parameters = tuple(Parameter.parse(each) for each in vary)
     names = [each.name for each in parameters]
     for name in names:
         if names.count(name) > 1:
-            raise SetupError(f"--set: expected each setting once, got {name!r} twice")
+            raise SetupError(_("--set: expected each setting once, got {name!r} twice", name=name))
     return SweepPlan(
         scene=data,
         algorithms=_algorithms(algo or how.algorithm),
@@ -174,12 +180,16 @@ def with_rewards_left_out(plan: "SweepPlan") -> "SweepPlan":
     from ai4u_edu.scenes.scene_data import scene_from
 
     if any(each.name == LEFT_OUT for each in plan.parameters):
-        raise SetupError(f"expected --set {LEFT_OUT} or --leave-out-rewards, got both")
+        raise SetupError(
+            _("expected --set {left_out} or --leave-out-rewards, got both", left_out=LEFT_OUT)
+        )
     sim = scene_from(plan.scene).build()
     agent = sim.agent(plan.settings["agent"]) if plan.settings["agent"] else sim.agents[0]
     names = [reward.name for reward in agent.rewards if reward.is_active]
     if len(names) < 2:
-        raise SetupError(f"--leave-out-rewards: expected several reward terms, got {names}")
+        raise SetupError(
+            _("--leave-out-rewards: expected several reward terms, got {names}", names=str(names))
+        )
     varied = Parameter(name=LEFT_OUT, values=(NO_REWARD, *names))
     return plan.model_copy(update={"parameters": (*plan.parameters, varied)})
 
@@ -192,8 +202,12 @@ def _algorithms(text: str) -> "tuple[Algorithm, ...]":
         known = next((name for name in ALGORITHMS if name == each.strip()), None)
         if known is None:
             raise SetupError(
-                f"--algo: expected some of {', '.join(ALGORITHMS)}, got {each!r}; "
-                f"{suggest(each, ALGORITHMS)}"
+                _(
+                    "--algo: expected some of {algorithms}, got {each!r}; {hint}",
+                    algorithms=", ".join(ALGORITHMS),
+                    each=each,
+                    hint=suggest(each, ALGORITHMS),
+                )
             )
         found.append(known)
     return tuple(found)
@@ -214,8 +228,13 @@ def parse_seeds(text: str) -> tuple[int, ...]:
         first, last = (int(match[1]), int(match[2] or match[1])) if match else (1, 0)
         if not first <= last <= MAX_TRAINING_SEED or last - first >= MAX_SEEDS:
             raise SetupError(
-                f"--seeds: expected numbers up to {MAX_TRAINING_SEED}, as in 0-9 or 1,5,7 (at most "
-                f"{MAX_SEEDS} of them), got {text!r}"
+                _(
+                    "--seeds: expected numbers up to {most}, as in 0-9 or 1,5,7 (at most "
+                    "{most2} of them), got {text!r}",
+                    most=MAX_TRAINING_SEED,
+                    most2=MAX_SEEDS,
+                    text=text,
+                )
             )
         found.update(dict.fromkeys(range(first, last + 1)))
     return tuple(found)
@@ -226,11 +245,11 @@ def _kept_plan(scene: str, out: Path | None, trials: int) -> "tuple[SweepPlan, P
 
     if out is None or scene:
         raise SetupError(
-            "--resume goes on as it was begun: expected --out, the sweep's folder, and no scene"
+            _("--resume goes on as it was begun: expected --out, the sweep's folder, and no scene")
         )
     plan = SweepPlan.load(out)
     if trials and not plan.is_search:
-        raise SetupError(f"{out} tries all combinations; expected no --trials")
+        raise SetupError(_("{out} tries all combinations; expected no --trials", out=str(out)))
     return (plan.model_copy(update={"trials": trials}) if trials else plan), out
 
 
@@ -242,8 +261,12 @@ def _begun(plan: "SweepPlan", folder: Path) -> "SweepPlan":
         different = plan.difference(SweepPlan.load(folder))
         if different:
             raise SetupError(
-                f"{folder} holds a sweep with other {different}; go on with that one (--resume "
-                f"--out {folder}), or choose another folder (--out)"
+                _(
+                    "{folder} holds a sweep with other {different}; go on with that one "
+                    "(--resume --out {folder}), or choose another folder (--out)",
+                    folder=str(folder),
+                    different=different,
+                )
             )
     return plan
 
@@ -263,7 +286,16 @@ def _run(plan: "SweepPlan", folder: Path, engine_name: str, address: str) -> "Sw
     def tell(result: "TrialResult") -> None:
         results.append(result)
         if result.error:
-            bar.note(f"trial {result.number} ({result.label}) failed: {result.error}")
+            bar.note(
+                translate(
+                    _(
+                        "trial {number} ({label}) failed: {problem}",
+                        number=result.number,
+                        label=result.label,
+                        problem=result.error,
+                    )
+                )
+            )
         best = ranked(results)[0]
         shown = f"best {best.cells(())['success'] or f'{best.value:.2f}'}" if best.checks else ""
         bar.show(max(kept, len(results)), shown)
@@ -298,15 +330,26 @@ def _report(done: "Sweep", engine: str) -> None:
             shown.add_row(*row.values())
         Console().print(shown)
     if done.evaluation is not None:
-        typer.echo(f"best network, {done.evaluation!r}")
-        typer.echo(f"let it drive: ai4u-edu play {done.plan.scene['name']} --brain {folder / BEST}")
+        say(_("best network, {evaluation}", evaluation=repr(done.evaluation)))
+        say(
+            _(
+                "let it drive: ai4u-edu play {name} --brain {folder}",
+                name=done.plan.scene["name"],
+                folder=str(folder / BEST),
+            )
+        )
     if done.results:
-        typer.echo(f"report: {folder / PAGE}")
+        say(_("report: {path}", path=str(folder / PAGE)))
     if done.is_interrupted:
         count = len(done.results)
-        typer.echo(
-            f"interrupted after {count} of {total_of(done.plan)} trials; go on with: {again}"
+        say(
+            _(
+                "interrupted after {count} of {total} trials; go on with: {again}",
+                count=count,
+                total=total_of(done.plan),
+                again=again,
+            )
         )
         raise typer.Exit(INTERRUPTED)
     if not any(each.checks for each in done.results):
-        raise SetupError(f"no trial has finished: {done.results[0].error}")
+        raise SetupError(_("no trial has finished: {problem}", problem=done.results[0].error))

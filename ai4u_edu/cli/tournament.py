@@ -13,8 +13,10 @@ from rich.table import Table
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.cli import training_options as o
-from ai4u_edu.cli.options import OwnBlocks, check_blocks, load_own_blocks, seed_option
+from ai4u_edu.cli.options import OwnBlocks, check_blocks, load_own_blocks, say, seed_option
 from ai4u_edu.cli.sweep import INTERRUPTED
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 if TYPE_CHECKING:
     from ai4u_edu.games.jobs import JobOutcome
@@ -87,14 +89,16 @@ def tournament(
     given = words or []
     if given[:1] == [VERIFY]:
         if len(given) != 2:
-            raise SetupError("expected one folder: ai4u-edu tournament verify FOLDER")
+            raise SetupError(_("expected one folder: ai4u-edu tournament verify FOLDER"))
         _verify(Path(given[1]), engine, address, own_blocks)
         return
     if resume:
         if out is None or given:
             raise SetupError(
-                "--resume goes on as it was begun: expected --out, the tournament's folder, and "
-                "no scene"
+                _(
+                    "--resume goes on as it was begun: expected --out, the tournament's folder, "
+                    "and no scene"
+                )
             )
         from ai4u_edu.games.tournament.plan import TournamentPlan
 
@@ -102,8 +106,11 @@ def tournament(
         check_blocks(plan.scene, own_blocks)
         if not trust_python and not all(each.can_repeat for each in plan.entries):
             raise SetupError(
-                f"{out}: it has Python programs, which may do on this machine what you may; read "
-                "them, then say --trust-python to let them play"
+                _(
+                    "{out}: it has Python programs, which may do on this machine what you may; "
+                    "read them, then say --trust-python to let them play",
+                    out=str(out),
+                )
             )
     else:
         first = range(seed, seed + seeds)
@@ -130,8 +137,10 @@ def _plan(
 
     if len(words) < 3:
         raise SetupError(
-            "expected a scene and two entries at least, as in: ai4u-edu tournament sumo a.onnx "
-            "b.onnx scene"
+            _(
+                "expected a scene and two entries at least, as in: ai4u-edu tournament sumo "
+                "a.onnx b.onnx scene"
+            )
         )
     scene, *specs = words
     data = scene_data(scene, own_blocks or ())
@@ -156,8 +165,12 @@ def _check_folder(plan: "TournamentPlan", folder: Path) -> None:
         different = plan.difference(TournamentPlan.load(folder))
         if different:
             raise SetupError(
-                f"{folder} holds a tournament with other {different}; go on with that one "
-                f"(--resume --out {folder}), or choose another folder (--out)"
+                _(
+                    "{folder} holds a tournament with other {different}; go on with that one "
+                    "(--resume --out {folder}), or choose another folder (--out)",
+                    folder=str(folder),
+                    different=different,
+                )
             )
 
 
@@ -189,16 +202,32 @@ def _report(done: "Tournament", engine: str) -> None:
     from ai4u_edu.games.tournament.run import PAGE
 
     shown = Table(box=None, pad_edge=False)
-    for heading in ("place", "entry", "rating", "won", "drawn", "lost", "failed"):
-        shown.add_column(heading, justify="left" if heading in ("entry", "rating") else "right")
+    headings = {
+        "place": _("place"),
+        "entry": _("entry"),
+        "rating": _("rating"),
+        "won": _("won"),
+        "drawn": _("drawn"),
+        "lost": _("lost"),
+        "failed": _("failed"),
+    }
+    for name, heading in headings.items():
+        justify: Literal["left", "right"] = "left" if name in ("entry", "rating") else "right"
+        shown.add_column(translate(heading), justify=justify)
     for place, each in enumerate(done.standings, 1):
         row = (place, each.name, each.rating, each.won, each.drawn, each.lost, each.forfeits)
         shown.add_row(*map(str, row))
     Console().print(shown, markup=False)
     for name, reason in done.refused.items():
-        typer.echo(f"refused: {name}: {reason}")
+        say(_("refused: {name}: {reason}", name=name, reason=reason))
     folder = shlex.quote(str(done.folder))
-    typer.echo(f"report: {done.folder / PAGE}\nverify: ai4u-edu tournament verify {folder}")
+    say(
+        _(
+            "report: {folder}\nverify: ai4u-edu tournament verify {quoted}",
+            folder=str(done.folder / PAGE),
+            quoted=folder,
+        )
+    )
     if done.is_interrupted:
         again = f"ai4u-edu tournament --resume --out {folder}"
         if not all(each.can_repeat for each in done.plan.entries):
@@ -206,7 +235,7 @@ def _report(done: "Tournament", engine: str) -> None:
         blocks = done.plan.scene.get("blocks", ())
         again += "".join(f" --blocks {shlex.quote(each)}" for each in blocks)
         again += f" --engine {engine}" if engine != "processes" else ""
-        typer.echo(f"interrupted after {len(done.games)} games; go on with: {again}")
+        say(_("interrupted after {n} games; go on with: {again}", n=len(done.games), again=again))
         raise typer.Exit(INTERRUPTED)
 
 
@@ -222,9 +251,14 @@ def _verify(folder: Path, engine_name: str, address: str, own_blocks: list[Path]
     with closing(bar), engine(engine_name, address=address) as running:
         count, problems = verify(folder, running, lambda: bar.add(1))
     for each in problems:
-        typer.echo(each)
+        say(each)
     if problems:
         wrong = sum(each.startswith("game ") for each in problems)
-        others = f", and {len(problems) - wrong} other things" if wrong < len(problems) else ""
-        raise SetupError(f"{folder}: {wrong} of {count} games differ{others}")
-    typer.echo(f"{count} games, played again: all are the same, bit for bit")
+        others = len(problems) - wrong
+        differ = _(
+            "{folder}: {wrong} of {n} games differ", folder=str(folder), wrong=wrong, n=count
+        )
+        if others:
+            differ = _("{differ}, and {others} other things", differ=differ, others=others)
+        raise SetupError(differ)
+    say(_("{count} games, played again: all are the same, bit for bit", count=count))

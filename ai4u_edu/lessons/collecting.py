@@ -18,6 +18,8 @@ from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import Exercise, find
 from ai4u_edu.lessons.notebook_output import marked
 from ai4u_edu.lessons.progress_file import FILE, ExerciseProgress, read_entries
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 MAX_COLLECTED_BYTES = 5_000_000
 """Limit of a progress file that is read."""
@@ -99,9 +101,14 @@ def collect(folder: Path) -> ClassProgress:
         SetupError: there is no such folder, or no progress in it.
     """
     if not folder.is_dir():
-        raise SetupError(f"expected a folder with the files of a class, found none at {folder}")
+        raise SetupError(
+            _(
+                "expected a folder with the files of a class, found none at {folder}",
+                folder=str(folder),
+            )
+        )
     students: dict[str, Mapping[str, ExerciseProgress]] = {}
-    problems = []
+    problems: list[str] = []
     for path in sorted(folder.rglob("*.json")):
         place = path.relative_to(folder)
         if any(part.startswith(".") for part in place.parts):
@@ -110,18 +117,22 @@ def collect(folder: Path) -> ClassProgress:
         try:
             students[name] = _entries(path)
         except (OSError, ValueError) as error:
-            problems.append(f"{place} is no progress file: {error}")
+            problems.append(
+                _("{place} is no progress file: {problem}", place=str(place), problem=str(error))
+            )
     if not students:
-        raise SetupError(
-            f"expected files called {FILE}, one for each student, found none in {folder}"
-            + "".join(f"; {each}" for each in problems)
+        none = _(
+            "expected files called {file}, one for each student, found none in {folder}",
+            file=FILE,
+            folder=str(folder),
         )
+        raise SetupError(join([none, *problems], "; "))
     return ClassProgress(students, problems)
 
 
 def _entries(path: Path) -> Mapping[str, ExerciseProgress]:
     if path.stat().st_size > MAX_COLLECTED_BYTES:
-        raise ValueError(f"expected at most {MAX_COLLECTED_BYTES} bytes")
+        raise ValueError(_("expected at most {most} bytes", most=MAX_COLLECTED_BYTES))
     return read_entries(path.read_text(encoding="utf-8"))
 
 
@@ -158,4 +169,8 @@ def _hint(exercise: Exercise, diagnosis: str) -> str:
     name = diagnosis.rpartition("/")[2]
     text = {**COMMON, **exercise.hints}.get(name, diagnosis)
     is_choice = is_ticket(exercise.id) and name in exercise.hints and name[:1].isdigit()
-    return f"Question {name[0]}, {name[1:]}: {text}" if is_choice else text
+    return (
+        _("Question {number}, {choice}: {text}", number=name[0], choice=name[1:], text=text)
+        if is_choice
+        else text
+    )

@@ -78,7 +78,13 @@ def _show(
     find(exercise_id)
     for name, (low, high) in ranges.items():
         if not low < high:
-            raise SetupError(f"{name}: expected (lowest, highest), got {(low, high)}")
+            raise SetupError(
+                _(
+                    "{name}: expected (lowest, highest), got {value}",
+                    name=name,
+                    value=str((low, high)),
+                )
+            )
     words = translate(
         _(
             "{exercise}: {names} can be set in JupyterLab.",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ai4u_edu.base.errors import SetupError, suggest
 from ai4u_edu.lessons.notebook import Cell, read_cells
+from ai4u_edu.locale import gettext as _
 
 TICKET = ".exit"
 """End of the id of an exit ticket, such as ``04.exit``."""
@@ -58,7 +59,10 @@ def course_folder() -> Path:
         if (folder / "00_start_here.py").is_file():
             return folder
     raise SetupError(
-        f"expected the course in {here / 'course'}, found none; install ai4u-edu again"
+        _(
+            "expected the course in {here}, found none; install ai4u-edu again",
+            here=str(here / "course"),
+        )
     )
 
 
@@ -87,4 +91,6 @@ def lesson(number: str) -> Lesson:
         if each.number == number:
             return each
     known = [each.number for each in lessons()]
-    raise SetupError(f"no lesson has the number {number!r}; {suggest(number, known)}")
+    raise SetupError(
+        _("no lesson has the number {number!r}; {hint}", number=number, hint=suggest(number, known))
+    )

@@ -112,7 +112,10 @@ def find(exercise_id: Any) -> Exercise:
     """
     if not isinstance(exercise_id, str):
         raise SetupError(
-            f"expected an exercise's number in quotes, such as '02.1', got {exercise_id!r}"
+            _(
+                "expected an exercise's number in quotes, such as '02.1', got {exercise_id!r}",
+                exercise_id=exercise_id,
+            )
         )
     number = exercise_id.partition(".")[0]
     try:
@@ -124,7 +127,13 @@ def find(exercise_id: Any) -> Exercise:
         from ai4u_edu.lessons.course import exercise_ids
 
         known = suggest(exercise_id, exercise_ids())
-        raise SetupError(f"no exercise is called {exercise_id!r}; {known}")
+        raise SetupError(
+            _(
+                "no exercise is called {exercise_id!r}; {known}",
+                exercise_id=exercise_id,
+                known=known,
+            )
+        )
     return EXERCISES[exercise_id]
 
 

@@ -14,6 +14,7 @@ from ai4u_edu.lessons.notebook import dumps
 from ai4u_edu.lessons.progress_file import FOLDER
 from ai4u_edu.lessons.translation import GLOSSARY, translated_lesson, translated_page
 from ai4u_edu.locale import SOURCE
+from ai4u_edu.locale import gettext as _
 
 LAB = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
 """Settings of JupyterLab that keep it from asking to fetch news from the internet."""
@@ -78,7 +79,13 @@ def hand_out(folder: Path, language: str = SOURCE) -> HandedOut:
             book[lesson.name] = print_
         write_atomically(folder / FOLDER / BOOK, json.dumps(book, indent=1))
     except OSError as error:
-        raise SetupError(f"expected to write into {folder}, and couldn't: {error}") from None
+        raise SetupError(
+            _(
+                "expected to write into {folder}, and couldn't: {problem}",
+                folder=str(folder),
+                problem=str(error),
+            )
+        ) from None
     return done
 
 

@@ -65,7 +65,10 @@ def compare(prediction_id: str, actual: Any) -> None:
 def _check_id(prediction_id: Any) -> None:
     if not isinstance(prediction_id, str) or not _ID.fullmatch(prediction_id):
         raise SetupError(
-            f"expected a prediction's number in quotes, such as '09.1', got {prediction_id!r}"
+            _(
+                "expected a prediction's number in quotes, such as '09.1', got {prediction_id!r}",
+                prediction_id=prediction_id,
+            )
         )
 
 

@@ -48,7 +48,7 @@ def show(
     if record is not None and scene is not None:
         recorder = Recorder.into(Path(record), sim, scene)
     elif record is not None:
-        raise SetupError("record: expected a scene or its name to go with it; give show a scene")
+        raise SetupError(_("record: expected a scene or its name to go with it; give show a scene"))
     else:
         recorder = Recorder(sim, scene=description)
     _current = live = Live(sim, recorder, title, seed, scene)
@@ -104,6 +104,6 @@ def _looked_at(world: World) -> ControlRequestor:
     """Return a world without agents, to be looked at."""
     bodies = [name for name, body in world.bodies.items() if body.moves]
     if not bodies:
-        raise SetupError("show: expected a world with a body that can move; add one first")
+        raise SetupError(_("show: expected a world with a body that can move; add one first"))
     agent = BasicAgent(body=bodies[0], brains=[LocalBrain(controller=lambda _: {})])
     return ControlRequestor(world, [agent])

@@ -51,7 +51,7 @@ def mistake_in(error: BaseException) -> Mistake | None:
             words = _("Your code called `exit`, which ends the program ({line}).", line=line)
         return Mistake(words, "exit")
     if line:  # it says more than the notes about which block was asked
-        name = "called" if str(error).startswith("connect: ") else "error"
+        name = "called" if text_of(error).startswith("connect: ") else "error"
         words = _(
             "Your code stopped with {kind}: {error} ({line}).",
             kind=type(error).__name__,

@@ -10,6 +10,7 @@ from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shorten
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.page.editing.scene_store import SceneExistsError, SceneStore
@@ -87,7 +88,7 @@ class AssignedScenes:
         """
         editor = self._editor
         if editor is None:
-            raise SetupError("this world can't open another scene; it was shown without one")
+            raise SetupError(_("this world can't open another scene; it was shown without one"))
         scene = self._read(source)
         self._save_own(editor)
         self._result(editor.open(scene))
@@ -136,7 +137,7 @@ class AssignedScenes:
         except TimeoutError:
             future.cancel()
             raise SetupError(
-                "the world does not answer: some block does not return; restart the world"
+                _("the world does not answer: some block does not return; restart the world")
             ) from None
         except AI4UError:
             raise
@@ -167,12 +168,18 @@ class AssignedScenes:
                 if _has(store, name, scene):
                     return
             except SetupError as error:
-                raise SetupError(f"the present scene can't be saved: {error}") from None
+                raise SetupError(
+                    _("the present scene can't be saved: {problem}", problem=str(error))
+                ) from None
             else:
                 return
         raise SetupError(
-            f"the present scene can't be saved: expected fewer than {MAX_SCENES_OF_A_NAME} scenes "
-            f"named {base!r}; delete some"
+            _(
+                "the present scene can't be saved: expected fewer than {most} scenes named "
+                "{base!r}; delete some",
+                most=MAX_SCENES_OF_A_NAME,
+                base=base,
+            )
         )
 
     def _remember(self) -> None:
@@ -199,7 +206,7 @@ def scene_name_of(assignment: Assignment) -> str:
 def _named(name: str) -> Scene:
     scene = load_by_name(name)
     if scene is None:
-        raise SceneError(f"the library has no scene {name[:60]!r}; choose another one")
+        raise SceneError(_("the library has no scene {name!r}; choose another one", name=name[:60]))
     return scene
 
 

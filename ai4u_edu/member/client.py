@@ -15,6 +15,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus, WebSocketExce
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.dialogue import LinkDialogue, LinkPhase, PresentState
 from ai4u_edu.member.link import LinkTimeouts
 from ai4u_edu.member.outbox import ResultOutbox
@@ -212,7 +213,9 @@ class LinkClient:
             raise
         if connection.subprotocol != SUBPROTOCOL:
             connection.close()
-            raise WebSocketException("it does not speak this version's protocol; update AI4U Edu")
+            raise WebSocketException(
+                _("it does not speak this version's protocol; update AI4U Edu")
+            )
         return connection
 
     def _converse(self, connection: ClientConnection) -> None:
@@ -235,7 +238,7 @@ class LinkClient:
             if self._closed is not None:
                 raise self._closed
             if self._dialogue.is_overdue(time.monotonic()):
-                self._dialogue.lost(time.monotonic(), "it does not answer")
+                self._dialogue.lost(time.monotonic(), _("it does not answer"))
 
     def _next_frame(self) -> bytes | None:
         """Wait for a frame to send; return None when the connection should be closed."""
@@ -309,5 +312,7 @@ def _reason(error: Exception) -> str:
 
 def _close_of(closed: ConnectionClosed) -> tuple[str, int]:
     if closed.rcvd is None:
-        return "the connection was lost", 0
-    return closed.rcvd.reason or f"closed with code {closed.rcvd.code}", closed.rcvd.code
+        return _("the connection was lost"), 0
+    return closed.rcvd.reason or _(
+        "closed with code {code}", code=closed.rcvd.code
+    ), closed.rcvd.code

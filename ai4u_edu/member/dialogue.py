@@ -122,10 +122,12 @@ class LinkDialogue:
         if self.phase is LinkPhase.OVER:
             return
         if code == POLICY_VIOLATION:
-            self.problem = why or "The class has ended this link."
+            self.problem = why or _("The class has ended this link.")
             self._enter(LinkPhase.OVER)
             return
-        self.problem = f"The class can't be reached ({why}). Results are kept and sent later."
+        self.problem = _(
+            "The class can't be reached ({why}). Results are kept and sent later.", why=why
+        )
         self._enter(LinkPhase.WAITING)
         self.retry_at = now + self._backoff_s * (0.5 + self._jitter() / 2)
         self._backoff_s = min(2 * self._backoff_s, MAX_BACKOFF_S)
@@ -220,9 +222,11 @@ class LinkDialogue:
             frame = encode_from_room(self._latest[kind])
             if len(frame) <= MAX_FRAME_BYTES:
                 return frame
-            self.problem = (
-                f"{kind.__name__}: expected at most {MAX_FRAME_BYTES} bytes, got {len(frame)}; "
-                "make the scene smaller"
+            self.problem = _(
+                "{kind}: expected at most {most} bytes, got {n}; make the scene smaller",
+                kind=kind.__name__,
+                most=MAX_FRAME_BYTES,
+                n=len(frame),
             )
         return None
 
@@ -241,5 +245,11 @@ class LinkDialogue:
 
     def _enter(self, phase: LinkPhase) -> None:
         if phase not in _NEXT[self.phase]:
-            raise RuntimeError(f"expected a phase after {self.phase.name}, got {phase.name}")
+            raise RuntimeError(
+                _(
+                    "expected a phase after {name}, got {name2}",
+                    name=self.phase.name,
+                    name2=phase.name,
+                )
+            )
         self.phase = phase

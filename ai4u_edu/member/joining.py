@@ -20,6 +20,7 @@ import httpx
 
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import AI4UError, shorten
+from ai4u_edu.locale import gettext as _
 
 SEAT_COOKIE = "ai4u_edu_seat"
 """Cookie with a seat's token from a program; those from a class go on with a name of its own, as
@@ -83,8 +84,11 @@ def class_address(url: str) -> str:
         is_fine = False
     if not is_fine:
         raise NotJoinedError(
-            "expected the address of the class that the teacher shows, such as "
-            f"http://192.168.0.10:8080, got {shorten(repr(url), 80)}"
+            _(
+                "expected the address of the class that the teacher shows, such as "
+                "http://192.168.0.10:8080, got {url}",
+                url=shorten(repr(url), 80),
+            )
         )
     path = _ROOM_PATH.sub("/", parts.path)
     return f"{parts.scheme}://{parts.netloc}{path.rstrip('/')}/"
@@ -116,12 +120,17 @@ def join(
     """
     address = class_address(url)
     if name_choice < 1:
-        raise NotJoinedError(f"name choice: expected a number from 1 on, got {name_choice}")
+        raise NotJoinedError(
+            _(
+                "name choice: expected a number from 1 on, got {name_choice}",
+                name_choice=name_choice,
+            )
+        )
     if not code.strip():
-        raise NotJoinedError("expected the code on the board, such as BCDFG, got none")
+        raise NotJoinedError(_("expected the code on the board, such as BCDFG, got none"))
     request = request or str(uuid4())
     with _client(address, held) as client:
-        for _ in range(_MAX_NAME_ROUNDS):
+        for _number in range(_MAX_NAME_ROUNDS):
             names = _names(client)
             first = (name_choice - 1) % len(names)
             for name in names[first:] + names[:first]:
@@ -132,7 +141,7 @@ def join(
                 if answer.status_code != 200:
                     raise NotJoinedError(_problem_of(answer, address))
                 return _seat_of(answer, name, address)
-    raise NotJoinedError("Others were faster with every name that was offered. Try again.")
+    raise NotJoinedError(_("Others were faster with every name that was offered. Try again."))
 
 
 def is_seat_valid(seat: Seat) -> bool:
@@ -237,8 +246,10 @@ def join_at_hub(service: str = "ai4u-class", variables: Mapping[str, str] = os.e
     """
     if not is_at_hub(variables):
         raise NotJoinedError(
-            "expected a server of a JupyterHub with a class, and this is none. Give the address of "
-            "the class and the code on the board"
+            _(
+                "expected a server of a JupyterHub with a class, and this is none. Give the "
+                "address of the class and the code on the board"
+            )
         )
     token = variables["JUPYTERHUB_API_TOKEN"]
     headers = {"Authorization": f"token {token}"}
@@ -251,7 +262,13 @@ def join_at_hub(service: str = "ai4u-class", variables: Mapping[str, str] = os.e
         problem = told.get("problem")
         if isinstance(problem, str) and problem:
             raise NotJoinedError(shorten(problem, _MAX_SENTENCE_CHARS))
-        raise NotJoinedError(f"There is no class at {url} (answer {answer.status_code}).")
+        raise NotJoinedError(
+            _(
+                "There is no class at {url} (answer {status_code}).",
+                url=url,
+                status_code=answer.status_code,
+            )
+        )
     return Seat(token, told["name"], str(told.get("colour", "")), url)
 
 
@@ -269,14 +286,18 @@ def _ask(client: httpx.Client, method: str, path: str, **rest: Any) -> httpx.Res
         except (httpx.ReadError, httpx.RemoteProtocolError):
             return client.request(method, path, **rest)
     except httpx.ConnectTimeout:
-        why = f"no connection within {CONNECT_TIMEOUT_S:g} s"
+        why: str = _("no connection within {limit:g} s", limit=CONNECT_TIMEOUT_S)
     except httpx.TimeoutException:
-        why = f"no answer within {ANSWER_TIMEOUT_S:g} s"
+        why = _("no answer within {limit:g} s", limit=ANSWER_TIMEOUT_S)
     except httpx.TransportError as error:
         why = str(error) or type(error).__name__
     raise UnreachableError(
-        f"The class at {client.base_url} can't be reached ({why}). Is the address right, and is "
-        "this computer in the same network?"
+        _(
+            "The class at {base_url} can't be reached ({why}). Is the address right, "
+            "and is this computer in the same network?",
+            base_url=str(client.base_url),
+            why=why,
+        )
     )
 
 
@@ -285,11 +306,15 @@ def _names(client: httpx.Client) -> list[str]:
     names = _fields(answer).get("names") if answer.status_code == 200 else None
     if not isinstance(names, list) or not all(isinstance(each, str) for each in names):
         raise NotJoinedError(
-            f"There is no class at {client.base_url} (answer {answer.status_code}). Use the "
-            "address that the teacher shows."
+            _(
+                "There is no class at {base_url} (answer {status_code}). Use the address "
+                "that the teacher shows.",
+                base_url=str(client.base_url),
+                status_code=answer.status_code,
+            )
         )
     if not names:
-        raise NotJoinedError("The class has no name left. Ask your teacher.")
+        raise NotJoinedError(_("The class has no name left. Ask your teacher."))
     return names
 
 
@@ -298,7 +323,9 @@ def _seat_of(answer: httpx.Response, name: str, address: str) -> Seat:
         (value for name, value in answer.cookies.items() if name.startswith(SEAT_COOKIE)), ""
     )
     if not token:
-        raise NotJoinedError(f"The class at {address} gave no seat. Is it of the same version?")
+        raise NotJoinedError(
+            _("The class at {address} gave no seat. Is it of the same version?", address=address)
+        )
     named, colour = _fields(answer).get("name"), _fields(answer).get("colour")
     return Seat(
         token,
@@ -312,13 +339,17 @@ def _problem_of(answer: httpx.Response, address: str) -> str:
     problem = _fields(answer).get("problem")
     if isinstance(problem, str) and problem:
         return shorten(problem, _MAX_SENTENCE_CHARS)
-    return f"The class at {address} could not answer (status {answer.status_code}). Try again."
+    return _(
+        "The class at {address} could not answer (status {status_code}). Try again.",
+        address=address,
+        status_code=answer.status_code,
+    )
 
 
 def _seat_in(read: dict[str, Any]) -> Seat:
     seat = Seat(read["token"], read["name"], read["colour"], read["url"])
     if not all(isinstance(each, str) for each in asdict(seat).values()):
-        raise TypeError(f"expected texts, got {read!r}")
+        raise TypeError(_("expected texts, got {read}", read=repr(read)))
     return seat
 
 
@@ -332,9 +363,13 @@ def _class_address(client: httpx.Client, service: str, variables: Mapping[str, s
         parts = urlsplit(url)
         return f"{parts.scheme}://{parts.netloc}{prefix}"
     raise NotJoinedError(
-        f"This hub has no class that this server may use: it has no service {service!r}, or this "
-        f"server's token lacks the scope read:services!service={service}. Whoever runs the "
-        "hub finds the settings in docs/jupyterhub.md."
+        _(
+            "This hub has no class that this server may use: it has no service "
+            "{service!r}, or this server's token lacks the scope "
+            "read:services!service={service}. Whoever runs the hub finds the settings "
+            "in docs/jupyterhub.md.",
+            service=service,
+        )
     )
 
 
@@ -347,7 +382,14 @@ def _ask_hub(client: httpx.Client, method: str, url: str, who: str) -> httpx.Res
         if answer.status_code < 500:
             return answer
         why = f"answer {answer.status_code}"
-    raise UnreachableError(f"The {who} at {url} can't be reached ({why}). Try again in a moment.")
+    raise UnreachableError(
+        _(
+            "The {who} at {url} can't be reached ({why}). Try again in a moment.",
+            who=who,
+            url=url,
+            why=why,
+        )
+    )
 
 
 def _fields(answer: httpx.Response) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from ai4u_edu.base.errors import SetupError, shorten
 from ai4u_edu.base.log_limit import ErrorLog
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.assigned_scenes import (
     OPEN_TIMEOUT_S,
     AssignedScenes,
@@ -361,8 +362,13 @@ class MemberTrainings:
         for what, name in (("scene", scene), ("agent", agent)):
             if len(name) > MAX_TEXT_CHARS:  # the class would refuse it again and again
                 raise SetupError(
-                    f"expected a name of the {what} of at most {MAX_TEXT_CHARS} characters, got "
-                    f"{len(name)}; give it a shorter one"
+                    _(
+                        "expected a name of the {what} of at most {most} characters, got {n}; give "
+                        "it a shorter one",
+                        what=what,
+                        most=MAX_TEXT_CHARS,
+                        n=len(name),
+                    )
                 )
         request = Learn(secrets.token_urlsafe(12), scene, agent, tuple(drives))
         with self._lock:

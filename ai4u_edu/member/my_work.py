@@ -25,6 +25,7 @@ from pathlib import Path
 
 from ai4u_edu.base.atomic_write import reason
 from ai4u_edu.base.errors import SceneError, SetupError
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.permissions import Permissions
 from ai4u_edu.page.editing.scene_store import DEVICES, MAX_SCENES
@@ -92,7 +93,9 @@ def open_my_work(file: Path) -> MyWork:
     """
     try:
         if file.stat().st_size > MAX_ZIP_BYTES:
-            raise SetupError(f"{file}: expected at most {MAX_ZIP_BYTES // 2**20} MB")
+            raise SetupError(
+                _("{file}: expected at most {most} MB", file=str(file), most=MAX_ZIP_BYTES // 2**20)
+            )
         digest = hashlib.sha256(file.read_bytes()).hexdigest()
         folder = _folder_for(file, digest)
         if not folder.exists():
@@ -112,7 +115,13 @@ def _folder_for(file: Path, digest: str) -> Path:
         mark = folder / MARK
         if not folder.exists() or (mark.is_file() and mark.read_text(encoding="utf-8") == digest):
             return folder
-    raise SetupError(f"{file}: there are {MAX_FOLDERS} folders for it already; delete some")
+    raise SetupError(
+        _(
+            "{file}: there are {most} folders for it already; delete some",
+            file=str(file),
+            most=MAX_FOLDERS,
+        )
+    )
 
 
 def _unpack(file: Path, folder: Path, digest: str) -> None:
@@ -146,19 +155,33 @@ def _read(file: Path) -> dict[str, bytes]:
                     data = entry.read(min(limit, left_bytes) + 1)
                 left_bytes -= len(data)
                 if len(data) > limit or left_bytes < 0:
-                    raise SetupError(f"{file}: {info.filename} is too large to be a student's work")
+                    raise SetupError(
+                        _(
+                            "{file}: {filename} is too large to be a student's work",
+                            file=str(file),
+                            filename=info.filename,
+                        )
+                    )
                 if info.filename.endswith(".yaml"):
                     _check_references(file, info.filename, data)
                 files[info.filename] = data
     except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError) as error:
         # RuntimeError: it is encrypted, or compressed in an unknown way
         raise SetupError(
-            f"{file}: expected the ZIP file that a class gave as 'my work', got {error}"
+            _(
+                "{file}: expected the ZIP file that a class gave as 'my work', got {problem}",
+                file=str(file),
+                problem=str(error),
+            )
         ) from None
     if SCENE not in files:
         raise SetupError(
-            f"{file}: expected the ZIP file that a class gave as 'my work'; there is no {SCENE} "
-            "in it"
+            _(
+                "{file}: expected the ZIP file that a class gave as 'my work'; there is no "
+                "{scene} in it",
+                file=str(file),
+                scene=SCENE,
+            )
         )
     return files
 
@@ -196,6 +219,12 @@ def _check_references(file: Path, name: str, data: bytes) -> None:
             Permissions(()).check(plain, ())
         except ChangeError as error:
             raise UnsafeSceneError(
-                f"{file}: {name}: {error}. If you know who made it, unpack the file yourself, and "
-                f"play {SCENE}."
+                _(
+                    "{file}: {name}: {problem}. If you know who made it, unpack the file "
+                    "yourself, and play {scene}.",
+                    file=str(file),
+                    name=name,
+                    problem=str(error),
+                    scene=SCENE,
+                )
             ) from None

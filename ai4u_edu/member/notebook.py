@@ -12,6 +12,7 @@ from urllib.parse import quote
 from msgspec.structs import replace
 
 from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.client import LinkClient
 from ai4u_edu.member.dialogue import PresentState
 from ai4u_edu.member.joining import Seat, SeatFile, join_at_hub
@@ -36,7 +37,7 @@ from ai4u_edu.wire.class_link import (
     State,
 )
 
-NO_WORLD = "The notebook shows no world at present."
+NO_WORLD = _("The notebook shows no world at present.")
 _REPLAYED = (LinkWelcome, People, Attention, ClassSettings, CurrentRace)
 """Messages of which a world that is shown later gets the latest one. Of assignments it gets only a
 lesson's: a scene would replace the world that a cell has just shown."""
@@ -271,18 +272,38 @@ def network_in(path: Path, scene: str, part: str) -> HandedInNetwork:
     """
     names = Scene.names()
     if scene not in names:
-        raise SetupError(f"Expected the name of a scene, got {scene!r}; {suggest(scene, names)}.")
+        raise SetupError(
+            _(
+                "Expected the name of a scene, got {scene!r}; {hint}.",
+                scene=scene,
+                hint=suggest(scene, names),
+            )
+        )
     if path.suffix.lower() != ".onnx":
         raise SetupError(
-            f"Expected a network as an .onnx file, got {path.name!r}. A training writes one."
+            _(
+                "Expected a network as an .onnx file, got {name!r}. A training writes one.",
+                name=path.name,
+            )
         )
     try:
         data = path.read_bytes()
     except OSError as error:
         raise SetupError(
-            f"{path} can't be read: {error.strerror}. Is it in this notebook's folder?"
+            _(
+                "{path} can't be read: {reason}. Is it in this notebook's folder?",
+                path=str(path),
+                reason=error.strerror or "",
+            )
         ) from None
     if not 0 < len(data) <= MAX_NETWORK_BYTES:
         limit = MAX_NETWORK_BYTES // 2**20
-        raise SetupError(f"{path.name}: expected 1 byte to {limit} MB, got {len(data):,} bytes.")
+        raise SetupError(
+            _(
+                "{name}: expected 1 byte to {limit} MB, got {n:,} bytes.",
+                name=path.name,
+                limit=limit,
+                n=len(data),
+            )
+        )
     return HandedInNetwork(secrets.token_urlsafe(12), scene, part, path.name[-100:], data)

@@ -5,6 +5,7 @@ from pathlib import Path
 from threading import Lock
 
 from ai4u_edu.base.atomic_write import reason, write_atomically
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.class_link import (
     MAX_FRAME_BYTES,
     Delivery,
@@ -89,7 +90,11 @@ class ResultOutbox:
             folder.mkdir(parents=True, exist_ok=True)
             write_atomically(path, frame, mode=0o600)
         except OSError as error:
-            self.problem = f"results can't be kept in {folder}: {reason(error)}"
+            self.problem = _(
+                "results can't be kept in {folder}: {reason}",
+                folder=str(folder),
+                reason=reason(error),
+            )
             return
         self._files[key] = path
         self.problem = ""
@@ -115,7 +120,11 @@ class ResultOutbox:
         try:
             paths = sorted(folder.glob(f"*{ENDING}"))
         except OSError as error:
-            self.problem = f"results can't be read from {folder}: {reason(error)}"
+            self.problem = _(
+                "results can't be read from {folder}: {reason}",
+                folder=str(folder),
+                reason=reason(error),
+            )
             return
         for path in paths:
             try:

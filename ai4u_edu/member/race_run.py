@@ -6,6 +6,7 @@ from contextlib import suppress
 from typing import Any
 
 from ai4u_edu.base.errors import AI4UError, shorten
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.assigned_scenes import OPEN_TIMEOUT_S, AssignedScenes
 from ai4u_edu.member.class_view import ClassView
 from ai4u_edu.member.episode_watch import EndedEpisode, EpisodeWatch
@@ -142,7 +143,9 @@ class RaceRun:
         except (AI4UError, TimeoutError) as error:
             self._race = None
             self._holds.for_race(-math.inf)
-            return Applied(race.id, shorten(f"the race: {error}", MAX_TEXT_CHARS))
+            return Applied(
+                race.id, shorten(_("the race: {problem}", problem=str(error)), MAX_TEXT_CHARS)
+            )
         self._watch.has_recordings = True
         return None
 

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 from urllib.parse import parse_qs, urlsplit
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.errors import RemoteError
 
 _SCHEMES = {"http": "ws", "https": "wss", "ws": "ws", "wss": "wss"}
@@ -36,12 +37,12 @@ def address_of(url: str, token: str = "") -> Address:
     try:
         parts = urlsplit(url if "://" in url else f"http://{url}")
         scheme, host = _SCHEMES.get(parts.scheme), parts.hostname
-        _ = parts.port
+        _port = parts.port
     except ValueError:
         scheme, host = None, None
     if scheme is None or not host:
         raise RemoteError(
-            f"expected the page's address, such as 'http://127.0.0.1:8080', got {url!r}"
+            _("expected the page's address, such as 'http://127.0.0.1:8080', got {url!r}", url=url)
         )
     token = token or parse_qs(parts.query).get("token", [""])[0]
     path = parts.path.rstrip("/").removesuffix("/ws/remote")

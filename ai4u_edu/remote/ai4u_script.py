@@ -6,6 +6,7 @@ import sys
 import threading
 import time
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.ai4u_dialogue import AI4UDialogue, AI4UReply, SentState, SessionPhase
 from ai4u_edu.wire.validation import WireError
@@ -61,7 +62,11 @@ class AI4UScript:
         except OSError as error:
             self._socket.close()
             raise RemoteError(
-                f"expected the name or address of this machine, got {host!r} ({error})"
+                _(
+                    "expected the name or address of this machine, got {host!r} ({problem})",
+                    host=host,
+                    problem=str(error),
+                )
             ) from None
         if sys.platform == "win32":  # there each later datagram would raise for an earlier refusal
             self._socket.ioctl(0x9800000C, False)
@@ -94,14 +99,20 @@ class AI4UScript:
                     pass
                 if self.is_over.is_set():
                     return None
-            error: OSError = TimeoutError(f"no answer for {self.patience:g} s")
+            error: OSError = TimeoutError(_("no answer for {patience:g} s", patience=self.patience))
         except OSError as failed:
             error = failed
         dialogue.begin()
         if is_connecting:
             time.sleep(max(0.0, until - time.monotonic()))
             return None
-        raise ScriptGoneError(f"the AI4U script at {self.where} is gone ({error}); start it again")
+        raise ScriptGoneError(
+            _(
+                "the AI4U script at {where} is gone ({problem}); start it again",
+                where=self.where,
+                problem=str(error),
+            )
+        )
 
     def say_goodbye(self) -> None:
         """Tell a script that the world has ended."""
@@ -119,7 +130,7 @@ class AI4UScript:
     def _drain(self) -> None:
         """Discard what arrived before a request: it can't be the reply."""
         self._socket.settimeout(0.0)
-        for _ in range(MAX_DRAINED):
+        for _number in range(MAX_DRAINED):
             try:
                 self._socket.recv(MAX_DATAGRAM_BYTES)
                 self.ignored += 1

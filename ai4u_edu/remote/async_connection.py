@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.address import Address
 from ai4u_edu.remote.connection_options import (
     OPTIONS,
@@ -102,5 +103,5 @@ class AsyncConnection:
     @property
     def _connected(self) -> ClientConnection:
         if self._socket is None:
-            raise ConnectionLostError("there is no connection")
+            raise ConnectionLostError(_("there is no connection"))
         return self._socket

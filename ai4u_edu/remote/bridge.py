@@ -13,7 +13,8 @@ from typing import NamedTuple
 
 from gymnasium import spaces
 
-from ai4u_edu.base.errors import ActionError
+from ai4u_edu.base.errors import ActionError, text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.address import address_of
 from ai4u_edu.remote.ai4u_script import AI4UScript, ScriptGoneError
 from ai4u_edu.remote.dialogue import Dialogue
@@ -102,7 +103,7 @@ class Bridge:
         self._tell = tell
         self._connection, self._robot = self._connect()
         welcome = self._robot.welcome
-        self._title = f"agent {welcome.agent!r} of {welcome.title!r}"
+        self._title = _("agent {agent!r} of {title!r}", agent=welcome.agent, title=welcome.title)
         self._codec = _codec_of(welcome)
         dialogue = ai4u_dialogue.AI4UDialogue(
             script_id,
@@ -128,7 +129,7 @@ class Bridge:
                 try:
                     self._let_drive()
                 except ScriptGoneError as gone:
-                    self._tell(str(gone))
+                    self._tell(text_of(gone))
                 except ConnectionStoppedError:
                     pass  # it was stopped while it waited for the world
                 finally:
@@ -158,7 +159,7 @@ class Bridge:
         return connection, robot
 
     def _leave(self) -> None:
-        self._connection.run(self._robot.end("the AI4U script has ended"))
+        self._connection.run(self._robot.end(_("the AI4U script has ended")))
 
     def _await_script(self) -> bool:
         """Look for a script until one starts; return False if the bridge was stopped before."""
@@ -169,11 +170,11 @@ class Bridge:
             try:
                 reply = script.ask()
             except ScriptGoneError as gone:
-                self._tell(str(gone))
+                self._tell(text_of(gone))
                 continue
             if reply is None and not told and not script.is_over.is_set():
                 told = True
-                self._tell(f"no AI4U script listens at {script.where} yet; start it")
+                self._tell(_("no AI4U script listens at {where} yet; start it", where=script.where))
             elif reply is not None and reply.kind is ReplyKind.HALT:
                 script.dialogue.begin()
             elif reply is not None:
@@ -185,7 +186,7 @@ class Bridge:
         """Let a script drive, from its start or reset until it ends."""
         script = self._script
         self._connection, self._robot = self._connect()
-        self._tell(f"an AI4U script drives {self._title}")
+        self._tell(_("an AI4U script drives {title}", title=self._title))
         starts = script.dialogue.phase is SessionPhase.STARTED
         percept = self._connection.run(self._robot.sense() if starts else self._robot.reset())
         if starts:
@@ -196,7 +197,7 @@ class Bridge:
             kind = reply.kind if reply else ReplyKind.CONTROL
             if kind is ReplyKind.HALT:
                 script.dialogue.begin()
-                self._tell("the AI4U script has ended; start another one, or end me with Ctrl-C")
+                self._tell(_("the AI4U script has ended; start another one, or end me with Ctrl-C"))
             if kind in (ReplyKind.HALT, ReplyKind.CONTROL):
                 return
             if kind is ReplyKind.WAIT and time.monotonic() - asked_at > KEEPALIVE_INTERVAL_S:
@@ -230,7 +231,9 @@ class Bridge:
             run(robot.act(_numbers(self._codec.action(orders))))
             return run(robot.sense())
         except ActionError as error:
-            self._tell(f"{error}; the agent does nothing in this decision")
+            self._tell(
+                _("{problem}; the agent does nothing in this decision", problem=text_of(error))
+            )
             run(robot.act({}))
             return run(robot.sense())
 
@@ -255,11 +258,11 @@ def _codec_of(welcome: native.Welcome) -> AgentCodec:
     try:
         return AgentCodec(readings, outputs)
     except WireError as error:
-        raise RemoteError(str(error)) from None
+        raise RemoteError(text_of(error)) from None
 
 
 def _numbers(action: dict[str, tuple[str, ...]]) -> dict[str, list[float]]:
     try:
         return {name: [number(arg) for arg in args] for name, args in action.items()}
     except WireError as error:
-        raise ActionError(f"action: {error}") from None
+        raise ActionError(_("action: {problem}", problem=text_of(error))) from None

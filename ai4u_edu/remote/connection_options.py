@@ -9,6 +9,7 @@ from typing import Any
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.steps import ConnectionLostError
 from ai4u_edu.wire import native
 
@@ -54,7 +55,9 @@ def connection_lost_from(error: Exception) -> ConnectionLostError:
     """Convert an error of websockets or of the system."""
     if isinstance(error, ConnectionClosed) and error.rcvd is not None:
         code = error.rcvd.code
-        return ConnectionLostError(error.rcvd.reason or f"closed with code {code}", code)
+        return ConnectionLostError(
+            error.rcvd.reason or _("closed with code {code}", code=code), code
+        )
     if isinstance(error, InvalidStatus):
         status = error.response.status_code
         body = (error.response.body or b"").decode(errors="replace").strip()
@@ -62,6 +65,6 @@ def connection_lost_from(error: Exception) -> ConnectionLostError:
         # 5xx: a proxy whose world is about to start
         return ConnectionLostError(answer, is_permanent=status < 500)
     if isinstance(error, ConnectionRefusedError) or _REFUSED.search(str(error)):
-        return ConnectionLostError("connection refused: nothing listens there")
+        return ConnectionLostError(_("connection refused: nothing listens there"))
     is_unknown_host = isinstance(error, gaierror) and error.errno != EAI_AGAIN
     return ConnectionLostError(str(error) or type(error).__name__, is_permanent=is_unknown_host)

@@ -15,8 +15,10 @@ from typing import Any, Literal, NoReturn, SupportsIndex, cast
 
 from msgspec.structs import replace
 
-from ai4u_edu.base.errors import ActionError, shown, suggest
+from ai4u_edu.base.errors import ActionError, shown, suggest, text_of
 from ai4u_edu.base.seeding import checked_seed
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.remote.errors import LostError, RefusedError, RemoteError
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.steps import (
@@ -67,9 +69,11 @@ def _checked(hello: native.Hello) -> native.Hello:
     try:
         said = native.decode(native.encode(hello))
     except WireError as error:
-        raise RemoteError(f"connect: {error}") from None
+        raise RemoteError(_("connect: {problem}", problem=text_of(error))) from None
     except (TypeError, ValueError, OverflowError) as error:  # nothing that msgpack knows
-        raise RemoteError(f"connect: expected text and names of keys, got {error}") from None
+        raise RemoteError(
+            _("connect: expected text and names of keys, got {problem}", problem=str(error))
+        ) from None
     return cast(native.Hello, said)
 
 
@@ -105,7 +109,7 @@ class Dialogue:
         patience: float = 10.0,
         on_missing: native.OnMissing = "",
     ) -> None:
-        name, _, secret = session.partition(":") if type(session) is str else (session, "", "")
+        name, _colon, secret = session.partition(":") if type(session) is str else (session, "", "")
         wanted: Any = (keys,) if isinstance(keys, str) else keys
         self._hello = _checked(
             native.Hello(
@@ -120,7 +124,12 @@ class Dialogue:
             )
         )
         if not patience >= 0:
-            raise RemoteError(f"patience: expected a number of seconds from 0 on, got {patience}")
+            raise RemoteError(
+                _(
+                    "patience: expected a number of seconds from 0 on, got {patience}",
+                    patience=patience,
+                )
+            )
         self._patience = patience
         self._welcome: native.Welcome | None = None
         self._last_frame = b""
@@ -156,7 +165,7 @@ class Dialogue:
     def welcome(self) -> native.Welcome:
         """The world's description of the agent."""
         if self._welcome is None:
-            raise self._ended or RemoteError("there is no connection yet; expected connect(...)")
+            raise self._ended or RemoteError(_("there is no connection yet; expected connect(...)"))
         return self._welcome
 
     @property
@@ -173,8 +182,11 @@ class Dialogue:
                 if output.is_output
             )
             raise RemoteError(
-                f"expected robot.act(...) in the loop, such as robot.act({example}); "
-                "robot.act() lets one decision pass"
+                _(
+                    "expected robot.act(...) in the loop, such as robot.act({example}); "
+                    "robot.act() lets one decision pass",
+                    example=example,
+                )
             )
 
     # -- what a script can do --------------------------------------------------------------------
@@ -185,7 +197,10 @@ class Dialogue:
         if lost is not None:
             yield Close()
             raise LostError(
-                f"expected a world, got {lost}; is it running, and is the address right?"
+                _(
+                    "expected a world, got {lost}; is it running, and is the address right?",
+                    lost=str(lost),
+                )
             )
 
     def sense(self) -> Flow[RemotePercept]:
@@ -219,7 +234,7 @@ class Dialogue:
         try:
             native.decode(native.encode(native.Reset(0, None, told)))
         except WireError as error:
-            raise RemoteError(f"tell: {error}") from None
+            raise RemoteError(_("tell: {problem}", problem=text_of(error))) from None
         self._told = told
         unread = native.without_reader(told, self.welcome.fields)
         if unread and unread != self._unread:
@@ -231,7 +246,7 @@ class Dialogue:
         percept = yield from self.sense()
         if percept.done:
             how = "terminated" if percept.terminated else "truncated"
-            raise ActionError(f"the episode is over ({how}); reset() begins another")
+            raise ActionError(_("the episode is over ({how}); reset() begins another", how=how))
         values = _numbers_of(self.outputs, action)
         action = native.Action(
             percept.episode, percept.step, percept.seq, values, self._told or None
@@ -264,10 +279,10 @@ class Dialogue:
         except ConnectionLostError as lost:
             yield from self._reconnect(lost)
 
-    def end(self, reason: str = "the script has ended") -> Flow[None]:
+    def end(self, reason: str = _("the script has ended")) -> Flow[None]:
         """Say goodbye, which gives the agent back, and close the connection."""
         if self._ended is None:
-            self._ended = LostError("the robot was closed; expected connect(...) again")
+            self._ended = LostError(_("the robot was closed; expected connect(...) again"))
             yield from self._leave(reason)
 
     def _leave(self, reason: str) -> Flow[None]:
@@ -294,7 +309,7 @@ class Dialogue:
             try:
                 yield from self._attempt(attempt_until)
                 if self._ended is not None:
-                    yield from self._leave("it was written for another robot")
+                    yield from self._leave(_("it was written for another robot"))
                     raise self._ended
                 if self._is_answered and not is_first:
                     yield self._repeat()
@@ -302,20 +317,22 @@ class Dialogue:
                 lost = self._waitable(failed)
             else:
                 if noted:
-                    yield Note(f"connected: this script drives agent {self.welcome.agent!r}")
+                    yield Note(
+                        _("connected: this script drives agent {agent!r}", agent=self.welcome.agent)
+                    )
                 return None
             left = deadline - time.monotonic()
             if left <= 0 or (is_first and lost.is_permanent):
                 if isinstance(lost, _WaitError):
                     self._end_by_problem(lost.problem)
                 return lost
-            if str(lost) != noted:
-                noted = str(lost)
-                why = noted
+            if text_of(lost) != noted:
+                why = noted = text_of(lost)
                 if not isinstance(lost, _WaitError):
-                    missing = "no world answers yet" if is_first else "the connection is lost"
-                    why = f"{missing} ({noted})"
-                yield Note(f"{why}; trying again for up to {left:.0f} s")
+                    why = _("the connection is lost ({why})", why=noted)
+                    if is_first:
+                        why = _("no world answers yet ({why})", why=noted)
+                yield Note(_("{why}; trying again for up to {left:.0f} s", why=why, left=left))
             yield Delay(min(backoff, left))
             backoff = min(2 * backoff, MAX_BACKOFF_S)
             attempt_until = min(deadline, time.monotonic() + ATTEMPT_TIMEOUT_S)
@@ -337,7 +354,7 @@ class Dialogue:
                 if frame is not None and self._handle_welcome(frame):
                     return
             if time.monotonic() >= deadline:
-                raise ConnectionLostError("no answer")
+                raise ConnectionLostError(_("no answer"))
 
     def _reconnect(self, lost: ConnectionLostError) -> Flow[None]:
         """Resume the session over a new connection, or begin another one.
@@ -352,8 +369,12 @@ class Dialogue:
         final = yield from self._connect(patience)
         if final is not None:
             self._ended = LostError(
-                f"the connection is lost ({final}), and could not be taken up again within "
-                f"{patience:g} s; expected connect(...) again"
+                _(
+                    "the connection is lost ({final}), and could not be taken up again within "
+                    "{patience:g} s; expected connect(...) again",
+                    final=str(final),
+                    patience=patience,
+                )
             )
             yield Close()
             raise self._ended from None
@@ -393,7 +414,9 @@ class Dialogue:
         message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
         if isinstance(message, native.Problem):
             if message.code == "bad_message" and self._hello.on_missing:
-                text = f"{message.text}; if the world is an older one, leave out on_missing"
+                text = _(
+                    "{text}; if the world is an older one, leave out on_missing", text=message.text
+                )
                 message = native.Problem(message.code, text, message.seq)
             self._refuse(message)
         if not isinstance(message, native.Welcome):
@@ -410,7 +433,7 @@ class Dialogue:
         """Begin a session in place of one that the world has not any more."""
         if (before.readings, before.outputs) != (now.readings, now.outputs):
             self._ended = LostError(
-                "the robot has other sensors or actuators by now; expected connect(...) again"
+                _("the robot has other sensors or actuators by now; expected connect(...) again")
             )
         self._interrupted = self.percept or self._interrupted
         self._latest_seq = 0
@@ -444,7 +467,7 @@ class Dialogue:
                     raise RefusedError(message.text, code)
                 raise ActionError(message.text)
             case native.Bye(reason):
-                self._end(LostError(f"the world has ended the session: {reason}"))
+                self._end(LostError(_("the world has ended the session: {reason}", reason=reason)))
 
     # -- the end ---------------------------------------------------------------------------------
 
@@ -463,7 +486,7 @@ class Dialogue:
             raise _WaitError(problem)
         if problem.code == "session_over" and self._welcome is not None:
             self._hello = replace(self._hello, session="")
-            raise ConnectionLostError("the world was restarted, or has given the agent back")
+            raise ConnectionLostError(_("the world was restarted, or has given the agent back"))
         self._end_by_problem(problem)
 
     def _end_by_problem(self, problem: native.Problem) -> NoReturn:
@@ -488,7 +511,11 @@ def _texts_of(name: str, value: Any) -> tuple[str, ...]:
         return tuple(each if isinstance(each, str) else repr(float(each)) for each in values)
     except (TypeError, ValueError, OverflowError):
         raise RemoteError(
-            f"tell: {name}: expected numbers, text or None, got {shown(value)}"
+            _(
+                "tell: {name}: expected numbers, text or None, got {value}",
+                name=name,
+                value=shown(value),
+            )
         ) from None
 
 
@@ -513,13 +540,22 @@ def _numbers_of(outputs: Mapping[str, native.Output], action: Any) -> dict[str, 
     if not isinstance(action, Mapping):
         if len(outputs) != 1:
             raise ActionError(
-                f"expected numbers by the actuator's name ({', '.join(outputs)}), "
-                f"got {shown(action)}"
+                _(
+                    "expected numbers by the actuator's name ({outputs}), got {action}",
+                    outputs=", ".join(outputs),
+                    action=shown(action),
+                )
             )
         action = {next(iter(outputs)): action}
     for name in action:
         if name not in outputs:
-            raise ActionError(f"no actuator is called {shown(name)}; {suggest(str(name), outputs)}")
+            raise ActionError(
+                _(
+                    "no actuator is called {name}; {hint}",
+                    name=shown(name),
+                    hint=suggest(str(name), outputs),
+                )
+            )
     return {name: _numbers(outputs[name], values) for name, values in action.items()}
 
 
@@ -537,6 +573,11 @@ def _numbers(output: native.Output, values: Any) -> tuple[float, ...]:
         pass
     count = len(output.low)
     raise ActionError(
-        f"action {output.name!r}: expected {count} finite number{'s' * (count != 1)}, "
-        f"got {shown(values)}"
+        ngettext(
+            "action {name!r}: expected {n} finite number, got {values}",
+            "action {name!r}: expected {n} finite numbers, got {values}",
+            count,
+            name=output.name,
+            values=shown(values),
+        )
     )

@@ -7,6 +7,7 @@ import numpy as np
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import checked_seed
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.own_frames import OWN_FRAMES_HIDDEN
 from ai4u_edu.remote.percept import RemotePercept
 from ai4u_edu.remote.robot import connect
@@ -48,10 +49,19 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
     ) -> None:
         with OWN_FRAMES_HIDDEN:
             if observation not in ("dict", "flat"):
-                raise SetupError(f"observation: expected 'dict' or 'flat', got {observation!r}")
+                raise SetupError(
+                    _(
+                        "observation: expected 'dict' or 'flat', got {observation!r}",
+                        observation=observation,
+                    )
+                )
             if render_mode is not None:
                 raise SetupError(
-                    f"render_mode: expected None (the page shows the world), got {render_mode!r}"
+                    _(
+                        "render_mode: expected None (the page shows the world), got "
+                        "{render_mode!r}",
+                        render_mode=render_mode,
+                    )
                 )
             self.render_mode = None
             self.robot = connect(url, agent, token=token, mode="lockstep", patience=patience)

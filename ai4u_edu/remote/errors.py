@@ -1,6 +1,7 @@
 """Errors that scripts get."""
 
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import translate
 
 
 class RemoteError(AI4UError):
@@ -14,6 +15,9 @@ class RemoteError(AI4UError):
     def __init__(self, text: str, code: str = "") -> None:
         super().__init__(text)
         self.code = code
+
+    def __str__(self) -> str:
+        return translate(self.args[0])  # for the terminal of the script
 
 
 class RefusedError(RemoteError):

@@ -7,6 +7,7 @@ from typing import Any, Self
 import numpy as np
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire import native
 from ai4u_edu.wire.texts import SEVERAL, unpack_texts
@@ -76,7 +77,13 @@ class RemotePercept(Mapping[str, Any]):
     def __getitem__(self, key: str) -> Any:
         reading = self._readings.get(key)
         if reading is None:
-            raise NameNotFoundError(f"no reading is called {key!r}; {suggest(key, self._readings)}")
+            raise NameNotFoundError(
+                _(
+                    "no reading is called {key!r}; {hint}",
+                    key=key,
+                    hint=suggest(key, self._readings),
+                )
+            )
         try:
             if reading.kind == "text":
                 text = self._texts[reading.offset]
@@ -86,8 +93,11 @@ class RemotePercept(Mapping[str, Any]):
             return flat.reshape(reading.shape) if reading.shape else flat[0].item()
         except (ValueError, IndexError, TypeError, OverflowError):
             raise RemoteError(
-                f"reading {key!r}: expected it in the percept as the welcome says, found it not; "
-                "connect again"
+                _(
+                    "reading {key!r}: expected it in the percept as the welcome says, found it "
+                    "not; connect again",
+                    key=key,
+                )
             ) from None
 
     def __iter__(self) -> Iterator[str]:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.base.errors import shown
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.errors import RemoteError
 from ai4u_edu.wire.native import MAX_WORLD_FRAME_BYTES, Output, Reading
 from ai4u_edu.wire.texts import SEVERAL
@@ -25,7 +26,9 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
     """
     try:
         if math.prod(reading.shape) > MAX_WORLD_FRAME_BYTES:
-            raise ValueError(f"shape {shown(reading.shape)} is larger than any percept")
+            raise ValueError(
+                _("shape {shape} is larger than any percept", shape=shown(reading.shape))
+            )
         if reading.kind == "text":
             text = spaces.Text(reading.shape[0])
             return spaces.Sequence(text) if reading.sensor_type == SEVERAL else text
@@ -38,7 +41,11 @@ def reading_space(reading: Reading) -> spaces.Space[Any]:
         )
     except _NO_SPACE as error:
         raise RemoteError(
-            f"reading {reading.key!r}: expected a space, got one that is none ({error})"
+            _(
+                "reading {key!r}: expected a space, got one that is none ({problem})",
+                key=reading.key,
+                problem=str(error),
+            )
         ) from None
 
 
@@ -57,7 +64,11 @@ def output_space(output: Output) -> spaces.Space[Any]:
         return spaces.Box(low, high, dtype=np.float32)
     except _NO_SPACE as error:
         raise RemoteError(
-            f"actuator {output.name!r}: expected a space, got one that is none ({error})"
+            _(
+                "actuator {name!r}: expected a space, got one that is none ({problem})",
+                name=output.name,
+                problem=str(error),
+            )
         ) from None
 
 
@@ -70,7 +81,7 @@ def observation_space(readings: Iterable[Reading], form: str = "dict") -> spaces
     """
     each = {reading.key: reading_space(reading) for reading in readings if reading.is_input}
     if not each:
-        raise RemoteError("the agent has no sensor that a policy could observe (is_input)")
+        raise RemoteError(_("the agent has no sensor that a policy could observe (is_input)"))
     if form == "dict":
         return spaces.Dict(each)
     bounds = [_bounds(key, space) for key, space in each.items()]
@@ -83,7 +94,7 @@ def action_space(outputs: Mapping[str, Output]) -> spaces.Space[Any]:
     """Return the space of the one actuator that a policy drives, or a Dict of several."""
     each = {name: output_space(output) for name, output in outputs.items() if output.is_output}
     if not each:
-        raise RemoteError("the agent has no actuator for a policy to drive (is_output)")
+        raise RemoteError(_("the agent has no actuator for a policy to drive (is_output)"))
     return next(iter(each.values())) if len(each) == 1 else spaces.Dict(each)
 
 
@@ -97,6 +108,10 @@ def _bounds(key: str, space: spaces.Space[Any]) -> tuple[npt.NDArray[Any], npt.N
     if isinstance(space, spaces.Discrete):
         return np.array([space.start]), np.array([space.start + space.n - 1])
     raise RemoteError(
-        f"observation='flat': sensor {key!r} reads {space}, which is no number; "
-        "use observation='dict'"
+        _(
+            "observation='flat': sensor {key!r} reads {space}, which is no number; use "
+            "observation='dict'",
+            key=key,
+            space=str(space),
+        )
     )

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.sync.client import ClientConnection, connect
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.remote.address import Address
 from ai4u_edu.remote.connection_options import (
     OPTIONS,
@@ -79,7 +80,7 @@ class SyncConnection:
 
     def _carry_out(self, step: Step) -> Any:
         if isinstance(step, _WAITING_STEPS) and self._stop is not None and self._stop.is_set():
-            raise ConnectionStoppedError("the bridge was stopped")
+            raise ConnectionStoppedError(_("the bridge was stopped"))
         match step:
             case Receive(timeout):
                 return self._receive(timeout)
@@ -130,5 +131,5 @@ class SyncConnection:
     @property
     def _connected(self) -> ClientConnection:
         if self._socket is None:
-            raise ConnectionLostError("there is no connection")
+            raise ConnectionLostError(_("there is no connection"))
         return self._socket

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from ai4u_edu.cli.main import help_texts
-from ai4u_edu.locale import LANGUAGES, PSEUDO, Catalogue
+from ai4u_edu.locale import LANGUAGES, PSEUDO, Catalogue, gettext
 from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow
@@ -61,3 +61,15 @@ def test_an_error_of_a_scene_file_is_in_the_language(tmp_path: Path) -> None:
     done = run("check", str(file), "--lang", PSEUDO)
     assert done.returncode == 1
     assert "úńkńówń páŕámétéŕ" in done.stderr
+
+
+def test_errors_are_said_in_the_language(tmp_path: Path) -> None:
+    done = run("tournament", "verify", "--lang", PSEUDO)
+    english = "expected one folder: ai4u-edu tournament verify FOLDER"
+    assert done.returncode == 1
+    assert english not in done.stderr
+    assert Catalogue(PSEUDO).translate(gettext(english)) in done.stderr
+    done = run("class", "--rooms", "two", "--folder", str(tmp_path), "--lang", PSEUDO)
+    assert done.returncode == 1
+    assert "expected each, pairs" not in done.stderr
+    assert "'two'" in done.stderr

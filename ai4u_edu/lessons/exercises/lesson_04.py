@@ -25,6 +25,7 @@ from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.snapshot import capture_snapshot
 from ai4u_edu.world import BoxShape, CircleShape, World
 
@@ -390,13 +391,14 @@ def _check_pairs(sensors: Sequence[Sensor]) -> None:
             rays = [each for each in sensors if "RayCasting" in type(each).__name__]
             nowhere = _look(sensors, (-11, -11)).agents[0].percept
             misses = rays and all(_same_of(each, left, nowhere) for each in rays)
-            why = " No ray hits the box there: give them a wider field of view." if misses else ""
+            same: str = _(
+                "With {shown}, in sight or behind a wall, the percept is the same.", shown=shown
+            )
+            if misses:
+                why = _("No ray hits the box there: give them a wider field of view.")
+                same = join([same, why])
             raise NotYet(
-                _(
-                    "With {shown}, in sight or behind a wall, the percept is the same.{why}",
-                    shown=shown,
-                    why=why,
-                ),
+                same,
                 hint="narrow" if misses else "wall",
                 picture=picture(capture_snapshot(hidden)),
             )

@@ -24,6 +24,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.rollouts import Drive, as_brain, drive, seeds_of
 from ai4u_edu.lessons.worlds import ANYWHERE
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.world import BoxShape, CircleShape, Variation, World
 
 POSTS = ("red", "blue")
@@ -291,7 +292,7 @@ def patrols(patrol: Any) -> Done:
         visits = _Visits()
         done = drive(ControlRequestor(world, [agent]), agent, seed, 720, visits.watch)
         if len(visits.rested) < ENOUGH:
-            shown = ", ".join(visits.rested) or "no post"
+            shown = ", ".join(visits.rested) or _("no post")
             raise done.not_yet(
                 _(
                     "In a minute the robot rested 2 s at {shown}; it touched {touched} ({where}).",
@@ -439,7 +440,8 @@ def rests_after_three_bumps(machine: Any) -> Done:
                 "pushes",
             )
         if touched != ["ahead", "behind", "ahead"] or not rests:
-            shown = ", ".join(touched[:6]) or "none"
+            names = {"ahead": _("ahead"), "behind": _("behind")}
+            shown = join([names[each] for each in touched[:6]], ", ") if touched else _("none")
             raise done.not_yet(
                 _(
                     "Expected bumps ahead, behind, ahead, and then a rest; got {shown} ({where}).",

@@ -288,6 +288,15 @@ def is_shown(cloned: Any) -> Done:
     )
 
 
+DRIVER_NAMES = {
+    "a good one": _("a good one"),
+    "a slow one": _("a slow one"),
+    "one that falls": _("one that falls"),
+    "one that sleeps": _("one that sleeps"),
+}
+"""Drivers of the races for the referee, in words."""
+
+
 @exercise(
     "11.3",
     _("The referee"),
@@ -349,8 +358,8 @@ def referees(race: Any) -> Done:
                 _(
                     "Blue, {blue}, against purple, {purple}, with seed {seed}: expected "
                     "`{right}`, got {got}.",
-                    blue=blue,
-                    purple=purple,
+                    blue=DRIVER_NAMES[blue],
+                    purple=DRIVER_NAMES[purple],
                     seed=seed,
                     right=repr(right),
                     got=named(got),

@@ -102,7 +102,7 @@ def clone_of(**times: float) -> "Cloned":
     from ai4u_edu.learn.training import clone
 
     if not times:
-        raise SetupError("no drive is chosen; tick at least one")
+        raise SetupError(_("no drive is chosen; tick at least one"))
     chosen = tuple((int(name.rpartition("_")[2]), round(count)) for name, count in times.items())
     drives = last_drives()
     if _trained.get("choice") != (chosen, drives):

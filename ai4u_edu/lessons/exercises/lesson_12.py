@@ -32,6 +32,7 @@ from ai4u_edu.lessons.numeric import (
 from ai4u_edu.lessons.rollouts import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.scenes import Scene
 
 Array = npt.NDArray[np.float64]
@@ -144,7 +145,7 @@ def _array(given: Any, shape: tuple[int, ...], name: str) -> Array:
     except (TypeError, ValueError, OverflowError):
         found = np.array(np.nan)
     if found.shape != shape or not np.isfinite(found).all():
-        rows = _("{count} numbers", count=shape[0])
+        rows = ngettext("{n} number", "{n} numbers", shape[0])
         if len(shape) == 2:
             rows = _("two rows of two numbers")
         raise NotYet(
@@ -305,13 +306,13 @@ def thinks(think: Any) -> Done:
             }
             near = (name for name, each in slips.items() if is_close(got, each, CLOSE))
             raise NotYet(
-                _(
-                    "A network with {count} layers, {sizes} inputs: expected {tolist}, got "
-                    "{tolist2}.",
-                    count=len(layers),
-                    sizes=sizes[0],
-                    tolist=right.round(2).tolist(),
-                    tolist2=got.round(2).tolist(),
+                ngettext(
+                    "A network with {n} layer, {inputs} inputs: expected {expected}, got {got}.",
+                    "A network with {n} layers, {inputs} inputs: expected {expected}, got {got}.",
+                    len(layers),
+                    inputs=sizes[0],
+                    expected=str(right.round(2).tolist()),
+                    got=str(got.round(2).tolist()),
                 ),
                 hint=next(near, ""),
             )

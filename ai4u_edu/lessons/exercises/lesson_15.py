@@ -31,6 +31,7 @@ from ai4u_edu.lessons.numeric import chance_for, finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.scenes import Scene
 from ai4u_edu.wire.ai4u import decode_request
 from ai4u_edu.world import Body
@@ -312,7 +313,12 @@ def asks_the_robot(full_power: Any) -> str:
         with served(sim) as robot:
             robot.reset()
             high = np.ravel(robot.spaces.action.high)  # type: ignore[attr-defined]
-            takes = _("The robot of `{name}` takes {count} numbers", name=name, count=len(high))
+            takes = ngettext(
+                "The robot of `{name}` takes {n} number",
+                "The robot of `{name}` takes {n} numbers",
+                len(high),
+                name=name,
+            )
             got = finite_numbers(ask(robot), len(high), expected=takes, hint="ask")
             if not is_close(got, high, 1e-5):
                 raise NotYet(

@@ -233,8 +233,7 @@ def stays_alive(live: Any) -> Done:
     for seed, begins in worlds:
         done, _needs, ran_out = _life(live, seed, **begins)
         if ran_out >= 0:
-            name = ("energy", "water")[ran_out]
-            other = ("water", "energy")[ran_out]
+            name, other = (_("energy"), _("water"))[:: -1 if ran_out else 1]
             level = _levels(done.agent)[1 - ran_out]
             hint = "reversed" if _goes_for_more(live, done) else "thirst"
             hint = "hundred" if _hundred(live, done) else hint

@@ -15,6 +15,7 @@ from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.pictures import picture
 from ai4u_edu.lessons.rollouts import Drive, drive, drives, seeds_of
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import listed
 from ai4u_edu.scenes import Scene
 from ai4u_edu.snapshot import capture_snapshot
 
@@ -69,14 +70,16 @@ def is_complete(text: Any) -> Done:
     told = scene.description
     missing = [name for name in WANTED if len(getattr(told, name).strip()) < 8]
     if missing:
-        raise NotYet(_("There is no {missing} in words yet.", missing=missing[0]), hint="complete")
+        raise NotYet(
+            _("There is no {missing} in words yet.", missing=f"`{missing[0]}`"), hint="complete"
+        )
     sim = scene.build()
     sim.reset(1)
     agent = sim.agents[0]
     for name, count, least in (
-        ("sensors", len(agent.sensors), 2),
-        ("actuators", len(agent.actuators), 1),
-        ("reward functions", len(agent.rewards), 2),
+        (_("sensors"), len(agent.sensors), 2),
+        (_("actuators"), len(agent.actuators), 1),
+        (_("reward functions"), len(agent.rewards), 2),
     ):
         if count < least:
             raise NotYet(
@@ -99,7 +102,7 @@ def is_complete(text: Any) -> Done:
         bodies = [sim.world[name] for name in taking_part]
         places.append([(*body.position, body.heading) for body in bodies])
     if not any(_differs(poses) for poses in zip(*places, strict=True)):
-        names = " and ".join(f"`{name}`" for name in taking_part)
+        names = listed([f"`{name}`" for name in taking_part])
         raise NotYet(
             _(
                 "All episodes begin in nearly the same way for {names}: in 10 of them no "
