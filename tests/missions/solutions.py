@@ -89,14 +89,18 @@ def follow_wall(agent: BasicAgent) -> Action:
 
 
 def to_exit(agent: BasicAgent) -> Action:
-    codes = np.asarray(agent.percept["vision"]).reshape(-1, 2)[:, 0]
-    angles = -np.linspace(-1, 1, len(codes)) * 150 / 2
+    return to_seen("target", agent, follow_wall)
+
+
+def to_seen(group: str, agent: BasicAgent, otherwise: Policy) -> Action:
+    """Return an action to what the rays see of a group, as the blocks "sees" and "direction" do."""
     (sensor,) = (each for each in agent.sensors if isinstance(each, LinearRayCastingSensor))
+    codes = np.asarray(agent.percept[sensor.perception_key]).reshape(-1, 2)[:, 0]
+    angles = -np.linspace(-1, 1, len(codes)) * sensor.field_of_view / 2
     largest = sensor.largest_code if sensor.normalized else 1.0
-    target = sensor.group_code["target"] / largest
-    hits = np.isclose(codes, target, atol=1e-3)
+    hits = np.isclose(codes, sensor.group_code[group] / largest, atol=1e-3)
     if not hits.any():
-        return follow_wall(agent)
+        return otherwise(agent)
     shift = float(angles[hits].mean())
     return move(0.6, max(-1.0, min(1.0, shift / 40)))(agent)
 
@@ -368,32 +372,43 @@ def by_bearing(agent: BasicAgent) -> Action:
 
 def think_6(do: Doing) -> None:
     do.open("code")
-    do.drive(hungry)
+    do.drive(lambda agent: to_seen("food", agent, move(0, 0.4)))
     do.new_start()
-    do.drive(solved(do), 6000)
+    do.drive(by_need, 6000)
+
+
+def by_need(agent: BasicAgent) -> Action:
+    energy, water, *_ = map(float, agent.percept["inside"])
+    return to_seen("food" if energy < water else "water", agent, move(0, 0.4))
 
 
 def think_7(do: Doing) -> None:
     do.open("code")
     do.drive(lambda _: {"move": [0.2, 0.4]})
     do.again()
-    do.drive(LineProgram(), 6000)
+    do.drive(brake_one_wheel, 6000)
+
+
+def brake_one_wheel(agent: BasicAgent) -> Action:
+    line = agent.percept["line"]
+    return {"move": [0.0 if line[0] > line[2] else 0.4, 0.0 if line[2] > line[0] else 0.4]}
 
 
 def think_8(do: Doing) -> None:
     do.open("code")
-    do.drive(after_runner, 4000)
+    do.drive(lambda agent: after_runner(agent, 1), 4000)
     do.new_start()
-    do.drive(after_runner, 12000)
+    do.drive(after_free_runner, 12000)
 
 
-def after_runner(agent: BasicAgent) -> Action:
-    free = agent.percept["free"]
-    number = next((place + 1 for place in range(3) if free[place]), 1)
+def after_runner(agent: BasicAgent, number: int) -> Action:
     left = float(agent.percept[f"runner {number}"][1])
-    if near_rays(agent)["ahead"] < 0.7:
-        return move(0.3, 1)(agent)
     return move(0.9, max(-1.0, min(1.0, -8 * left)))(agent)
+
+
+def after_free_runner(agent: BasicAgent) -> Action:
+    free = agent.percept["free"]
+    return after_runner(agent, 1 if free[0] > 0 else 2 if free[1] > 0 else 3)
 
 
 def code_4(do: Doing) -> None:
