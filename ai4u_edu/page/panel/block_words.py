@@ -94,10 +94,10 @@ _SENSORS = {
         _("1 while the robot touches anything of a group, else -1."),
     ),
     "EventSensor": BlockWords(
-        "Something happened",
+        _("Something happened"),
         _TOUCH,
         "touch",
-        "1 once when the robot has touched a thing or gone into an area, else 0.",
+        _("1 once when the robot has touched a thing or gone into an area, else 0."),
     ),
     "GroundStatusSensor": BlockWords(
         _("Ground under me"), _TOUCH, "ground", _("1 on the ground, -1 in the air.")
