@@ -7,7 +7,7 @@ from playwright.sync_api import Page, Route
 FAKE = """
 const fake = (window.fake ??= {
   calls: [], percepts: [], closed: 0, waits: 0, load: { ok: true }, connectError: null, warm: null,
-  connecting: null,
+  connecting: null, refuses: false,
   decide: (percept, number, stops) => ({
     ok: true, values: { move: [1, 0] }, printed: `decision ${number}\\n`, lines: [2, 3],
     variables: { near: "0.94" },
@@ -39,6 +39,8 @@ export class RemoteClient {
     fake.calls.push(["connect", options]);
     await fake.connecting;
     if (fake.connectError) throw new Error(fake.connectError);
+    const isRefused = fake.refuses && options.mode === "lockstep";
+    if (isRefused) throw Object.assign(new Error("refused"), { code: "lockstep_refused" });
     return new RemoteClient();
   }
   welcome = {

@@ -183,6 +183,17 @@ def test_a_paused_world_goes_on(tab: CodePage) -> None:
     expect(tab.state).to_contain_text("Runs")
 
 
+@pytest.mark.parametrize("refuses", [False, True])
+def test_in_a_mission_the_world_waits_for_late_decisions(tab: CodePage, refuses: bool) -> None:
+    tab.page.evaluate("document.documentElement.dataset.ai4uMission = 'open'")
+    tab.page.evaluate("refuses => (fake.refuses = refuses)", refuses)
+    tab.sense()
+    tab.press("Run")
+    expect(tab.state).to_contain_text("Runs")
+    modes = [options["mode"] for (options,) in tab.calls("connect")]
+    assert modes == (["lockstep", "realtime"] if refuses else ["lockstep"])
+
+
 def test_step_makes_one_decision_and_the_world_waits(tab: CodePage) -> None:
     tab.sense(0)
     tab.sense(1)

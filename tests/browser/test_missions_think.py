@@ -83,12 +83,17 @@ class Card:
 
 
 @contextmanager
-def card(chromium: Browser, mission: str) -> Iterator[Card]:
-    """Open a mission's first step in its scene, and go on to the second one."""
+def card(chromium: Browser, mission: str, *, late: bool = False) -> Iterator[Card]:
+    """Open a mission's first step in its scene.
+
+    Args:
+        late: the world is faster than its program, which is late with every decision.
+    """
     page, problems = new_page(chromium, *SIZE), list[str]()
     page.on("pageerror", lambda error: problems.append(str(error)))
     scene = library_missions().get(mission).scene
-    with played(scene, "--seed", SEED, *WORLD_WAITS) as server:
+    pace = ("--time-scale", "20") if late else ()
+    with played(scene, "--seed", SEED, *pace, *WORLD_WAITS) as server:
         kept = f'{{"mission": "{mission}", "step": 0}}'
         page.add_init_script(f"localStorage['ai4u-mission-'] ??= '{kept}'")
         page.goto(server.url)
@@ -115,6 +120,17 @@ def test_a_block_is_dragged_and_drives(chromium: Browser) -> None:
         ada.press("New start")
         ada.press("Run")
         expect(ada.done).to_contain_text("It looked before it acted")
+
+
+def test_late_decisions_do_not_fail_a_program_that_is_right(chromium: Browser) -> None:
+    with card(chromium, "think-2", late=True) as ada:
+        ada.press_lit("Code")
+        ada.go_on()
+        ada.press_lit("Blocks")
+        wall = compare(near_ahead(), "LT", 1.2)
+        ada.snap(block("if_else", IF=wall, DO=act(1, 0.5), ELSE=act(0, 0.5)))
+        ada.press("Run")
+        expect(ada.done).to_contain_text("It never gets stuck")
 
 
 def near_ahead() -> State:

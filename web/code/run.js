@@ -121,12 +121,19 @@ export class CodeRun extends /** @type {EmitterClass<RunEvents>} */ (EventTarget
    * @param {object} [from]
    * @param {number | null} [from.seed] begins an episode with it instead
    * @param {boolean} [from.isHere] drives from where the agent stands instead
+   * @param {boolean} [from.isWaitedFor] the world waits for a late decision, unless other robots would wait, too
    */
-  async run(source, agent, { seed = null, isHere = false } = {}) {
+  async run(source, agent, { seed = null, isHere = false, isWaitedFor = false } = {}) {
     await this.#guarded(async (ticket) => {
       const isNext = this.phase === "stepping" && source === this.#source;
       const isFresh = seed === null && !isHere && !isNext;
-      let percept = await this.#start(source, agent, "realtime", ticket, { seed, isFresh });
+      const start = (/** @type {Connecting["mode"]} */ mode) => this.#start(source, agent, mode, ticket, { seed, isFresh });
+      const waitedFor = () =>
+        start("lockstep").catch((error) => {
+          if (error.code === "lockstep_refused") return start("realtime");
+          throw error;
+        });
+      let percept = await (isWaitedFor ? waitedFor() : start("realtime"));
       this.#set("running");
       for (;;) percept = await this.#decide(percept, ticket);
     });

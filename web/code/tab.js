@@ -322,7 +322,9 @@ export class CodeTab {
     const source = this.#editor.text;
     if (this.#run.phase === "off" || way === "run") this.#clear();
     this.#noteStart(source);
-    if (way === "run") this.#run.run(source, this.#agent.id, from);
+    // checks of a mission count decisions: on a slow computer, most would be missing
+    const isWaitedFor = ["open", "hidden"].includes(document.documentElement.dataset.ai4uMission);
+    if (way === "run") this.#run.run(source, this.#agent.id, { ...from, isWaitedFor });
     else this.#run.step(source, this.#agent.id);
     return true;
   }
