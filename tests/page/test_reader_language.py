@@ -9,6 +9,7 @@ import pytest
 
 from ai4u_edu.locale import LIBRARY, PSEUDO, VARIABLE, Catalogue, gettext, library_text
 from ai4u_edu.page.editing import SceneEditor
+from ai4u_edu.page.panel.block_words import OWN_BLOCKS
 from ai4u_edu.page.panel.field_hints import FIELD_HINTS
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
@@ -107,9 +108,11 @@ def test_blocks_and_their_forms_are_translated() -> None:
         items = page.done("gallery", kind="rewards")["items"]
         page.done("undo")
         redo = page.part("blocks", lambda part: part["redo"]["label"])["redo"]
-    assert untranslated([part["form"], part["settings"], part["undo"], items], keys) == set()
-    fields = {field["name"]: field for field in part["form"]["fields"]}
     accented = Catalogue(PSEUDO).translate
+    # blocks of other tests' own in this process keep the words that their author wrote
+    ours = [item for item in items if item["question"] != accented(OWN_BLOCKS)]
+    assert untranslated([part["form"], part["settings"], part["undo"], ours], keys) == set()
+    fields = {field["name"]: field for field in part["form"]["fields"]}
     assert fields["target"]["hint"] == accented(FIELD_HINTS["target"])
     assert redo["label"] == accented(
         gettext("add {block}", block=gettext("Direction and distance"))
