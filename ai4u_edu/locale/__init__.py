@@ -27,6 +27,7 @@ from ai4u_edu.locale.languages import (
 )
 from ai4u_edu.locale.text import (
     LIBRARY,
+    PACKED,
     PYTHON,
     Text,
     gettext,
@@ -43,6 +44,7 @@ __all__ = [
     "LANGUAGES",
     "LESSONS",
     "LIBRARY",
+    "PACKED",
     "PAGE",
     "PSEUDO",
     "PYTHON",

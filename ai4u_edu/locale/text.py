@@ -15,7 +15,7 @@ Value = str | int | float
 
 MAX_PACKED_CHARS: Final = 4000
 """Most characters of a text that is packed for a file or another process."""
-_PACKED = "\x1e"
+PACKED = "\x1e"
 """Begins a packed text: ASCII's record separator, which no sentence has."""
 _SAFE_FORMATS = re.compile(r"\{\{|\}\}|\{\w+(![rs])?(:[+,]?(\.\d)?[a-z%]?)?\}")
 
@@ -156,7 +156,7 @@ def packed(text: object, max_chars: int = MAX_PACKED_CHARS) -> str:
         return text
     values = {name: packed(v) if isinstance(v, str) else v for name, v in text.values.items()}
     parts = text.msgid, values, text.plural, text.number, text.is_sentence, text.domain
-    whole = _PACKED + json.dumps(parts, ensure_ascii=False, separators=(",", ":"))
+    whole = PACKED + json.dumps(parts, ensure_ascii=False, separators=(",", ":"))
     return whole if len(whole) <= max_chars else str(text)
 
 
@@ -166,10 +166,10 @@ def unpacked(text: str) -> str:
     Args:
         text: from anybody; it is empty if it is packed, but not as :func:`packed` does it.
     """
-    if not text.startswith(_PACKED):
+    if not text.startswith(PACKED):
         return text
     try:
-        msgid, values, plural, number, is_sentence, domain = json.loads(text[len(_PACKED) :])
+        msgid, values, plural, number, is_sentence, domain = json.loads(text[len(PACKED) :])
         inner = {name: _value(value) for name, value in values.items()}
         patterns = (msgid, plural) if inner else ()
         # a pattern of somebody else's could ask for attributes, or for a gigabyte of blanks

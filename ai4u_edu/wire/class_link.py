@@ -22,13 +22,14 @@ Compatibility: see :mod:`ai4u_edu.wire.message_codec`. Any other change needs an
 :data:`VERSION`.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from msgspec import Meta
+from msgspec import Meta, Struct
+from msgspec.structs import replace
 
 from ai4u_edu.base.errors import shorten
 from ai4u_edu.base.seeding import MAX_SEED
-from ai4u_edu.locale import packed, unpacked
+from ai4u_edu.locale import PACKED, packed, unpacked
 from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
 from ai4u_edu.wire.validation import LIST, MAX_TEXT_CHARS, Finite, Int, Text
 
@@ -496,6 +497,23 @@ def _sent(text: str) -> str:
     return packed(text, MAX_TEXT_CHARS)
 
 
+def _received(message: Any, frame: bytes) -> Any:
+    """Return a message whose sentences can be translated again."""
+    # most frames have none, and poses many numbers to go through
+    return _unpacked(message) if PACKED.encode() in frame else message
+
+
+def _unpacked(value: Any) -> Any:
+    if isinstance(value, str):
+        return unpacked(value)
+    if isinstance(value, tuple):
+        return tuple(map(_unpacked, value))
+    if isinstance(value, Struct):
+        fields = {name: _unpacked(getattr(value, name)) for name in value.__struct_fields__}
+        return replace(value, **fields)
+    return value
+
+
 _room_codec: MessageCodec[FromRoom] = MessageCodec(FromRoom, _sent)
 _class_codec: MessageCodec[FromClass] = MessageCodec(FromClass, _sent)
 
@@ -515,9 +533,7 @@ def decode_from_room(frame: bytes) -> FromRoom:
     Raises:
         WireError: there is no valid message in it. No other error is raised for any bytes.
     """
-    message = _room_codec.decode(frame, MAX_FRAME_BYTES)
-    if isinstance(message, Applied):
-        return Applied(message.assignment, unpacked(message.problem))
+    message: FromRoom = _received(_room_codec.decode(frame, MAX_FRAME_BYTES), frame)
     return message
 
 
@@ -534,7 +550,5 @@ def decode_from_class(frame: bytes) -> FromClass:
     Raises:
         WireError: there is no valid message in it. No other error is raised for any bytes.
     """
-    message = _class_codec.decode(frame, MAX_FRAME_BYTES)
-    if isinstance(message, LinkProblem):
-        return LinkProblem(message.code, unpacked(message.text))
+    message: FromClass = _received(_class_codec.decode(frame, MAX_FRAME_BYTES), frame)
     return message

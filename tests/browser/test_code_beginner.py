@@ -69,7 +69,7 @@ def test_the_way_to_three_stars(server: Played, tab: CodeTab) -> None:
     stars(tab.page, 0)
     mistakes = [
         ("(percept):", "(percept)", "A colon (:) is missing"),
-        ("    cosine =", "cosine =", "four spaces"),
+        ("    cosine =", "cosine =", "four more spaces"),
         ('["orientation"][0]', '["orientation"[0]', "is never closed"),
         ('"orientation"', '"orientatoin"', "'orientation'"),
         ("if cosine", "if cosin", "did you mean 'cosine'?"),

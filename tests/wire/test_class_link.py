@@ -4,6 +4,9 @@ from ai4u_edu.locale import PSEUDO, Catalogue, gettext
 from ai4u_edu.wire.class_link import (
     Applied,
     LinkProblem,
+    RoomTrainings,
+    State,
+    Training,
     decode_from_class,
     decode_from_room,
     encode_from_class,
@@ -22,6 +25,17 @@ def test_a_sentence_is_translated_for_its_receivers_reader() -> None:
     wanted = Catalogue(PSEUDO).translate(TEXT)
     assert [problem.text, applied.problem] == [TEXT, TEXT]
     assert [*map(Catalogue(PSEUDO).translate, (problem.text, applied.problem))] == [wanted, wanted]
+
+
+def test_sentences_in_any_field_are_translated() -> None:
+    state = State("driving", "Box chase", TEXT, 1.0, 1, 0, is_solved=False)
+    training = Training("abcdefgh", "box_chase", "0", 1, remarks=(TEXT,))
+    sent = decode_from_room(encode_from_room(state))
+    told = decode_from_class(encode_from_class(RoomTrainings((training,))))
+    assert isinstance(sent, State)
+    assert isinstance(told, RoomTrainings)
+    accented = Catalogue(PSEUDO).translate
+    assert accented(sent.driver) == accented(told.trainings[0].remarks[0]) == accented(TEXT)
 
 
 def test_a_sentence_that_is_too_long_is_cut_in_english() -> None:
