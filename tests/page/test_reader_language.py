@@ -64,6 +64,11 @@ def test_html_is_translated(room: Room) -> None:
     assert "<code>ai4u-edu lessons</code>" in accented
 
 
+def test_a_scenes_title_is_translated(room: Room) -> None:
+    titles = [page(room, "api/scene", language).json()["title"] for language in ("en", "pt-BR")]
+    assert titles == ["Box chase", "Caça à caixa"]
+
+
 def test_two_pages_of_one_world_hear_two_languages() -> None:
     header = {"Accept-Language": "en-XA"}
     with (

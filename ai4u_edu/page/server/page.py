@@ -14,7 +14,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.locale import SOURCE, catalogue, page_catalogue
+from ai4u_edu.locale import SOURCE, catalogue, library_text, page_catalogue, translate
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles
 
@@ -146,7 +146,7 @@ def _index(title: str, modules: list[str], files: WebFiles, *, has_panel: bool) 
             )
         )
     ours = _OURS.format(
-        title=html.escape(title),
+        title=html.escape(translate(library_text(title))),
         panel=" data-panel" if has_panel else "",
         # else a browser finds a module's imports only after it has read the module
         preloads="\n    ".join(

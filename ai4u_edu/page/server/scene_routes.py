@@ -13,7 +13,7 @@ from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.seeding import MAX_SEED
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import translate
+from ai4u_edu.locale import library_text, translate
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.page.editing.sharing import SharedScene, shared_link
@@ -107,7 +107,7 @@ class SceneRoutes:
         return _json(
             SceneView(
                 name=editor.state.description.name,
-                title=editor.title,
+                title=translate(library_text(editor.title)),
                 is_changed=editor.recovery.has_unsaved_changes,
                 is_autosaved=editor.recovery.autosave is not None,
             )
@@ -121,7 +121,11 @@ class SceneRoutes:
         except AI4UError as error:
             raise HTTPException(409, translate(text_of(error))) from None
         return _json(
-            LinkView(fragment=link.fragment, title=self._editor.title, needs=list(link.needs))
+            LinkView(
+                fragment=link.fragment,
+                title=translate(library_text(self._editor.title)),
+                needs=list(link.needs),
+            )
         )
 
     async def describe(self, request: Request) -> Response:
@@ -196,7 +200,7 @@ def _named(name: str) -> SharedScene:
 
 def _view(shared: SharedScene) -> SharedView:
     description = shared.scene.description
-    title = description.title or description.name
+    title = translate(library_text(description.title or description.name))
     return SharedView(name=description.name, title=title, seed=shared.seed)
 
 
