@@ -124,7 +124,7 @@ _SENSORS = {
         _("Tells the colour and brightness of one point of the ground: ink, paint or floor."),
     ),
     "HearSensor": BlockWords(
-        _("Hear others"), _AROUND, "sound", _("Tells what the nearest robots have just said.")
+        _("Hear others"), _AROUND, "hear", _("Tells what the nearest robots have just said.")
     ),
     "HomeostaticSensor": BlockWords(
         _("Needs: energy, water"), _BODY, "need", _("Tells how hungry or thirsty the robot is.")
@@ -197,7 +197,7 @@ _ACTUATORS = {
     "SpeakActuator": BlockWords(
         _("Speak to others"),
         _("What can I tell others?"),
-        "sound",
+        "speak",
         _("Says a few numbers to all robots that are near enough."),
     ),
     "RespawnActuator": BlockWords(
@@ -331,7 +331,7 @@ _BRAINS = {
     "ReplayController": BlockWords(_("Recorded actions"), _PROGRAM, "memory"),
     "AStarController": BlockWords(_("Shortest path (A*)"), _PROGRAM, "route"),
     "BreadthFirstController": BlockWords(_("Shortest path (breadth first)"), _PROGRAM, "route"),
-    "CallController": BlockWords(_("Partner that calls"), _PROGRAM, "sound"),
+    "CallController": BlockWords(_("Partner that calls"), _PROGRAM, "speak"),
     "AntController": BlockWords(_("Ant that follows trails"), _PROGRAM, "route"),
     "FleeController": BlockWords(_("Run away"), _PROGRAM, "speed"),
     "KeeperController": BlockWords(_("Goalkeeper"), _PROGRAM, "area"),
