@@ -16,6 +16,7 @@ from datetime import UTC, datetime
 from gettext import c2py
 from pathlib import Path
 
+import typer
 from babel import Locale
 from babel.messages import Catalog, Message
 from babel.messages.extract import extract_from_dir
@@ -86,6 +87,7 @@ Keywords = Mapping[str, tuple[int, ...] | None]
 PYTHON_KEYWORDS: Keywords = {"_": None, "deferred": None, "gettext": None, "ngettext": (1, 2)}
 PAGE_KEYWORDS: Keywords = {"t": None, "tn": (1, 2)}
 SITE_KEYWORDS: Keywords = {"words": None}
+_PACKAGES = Path(typer.__file__).parents[1]
 _VALUES = re.compile(r"\{[^{}]*\}|%\d")  # the second are Blockly's
 _MARKUP = re.compile(r"<code>.*?</code>|`[^`]*`|\]\([^()]*\)|<[^<>]+>|\*\*|&\w+;")
 
@@ -115,6 +117,8 @@ def domains() -> list[Domain]:
     python = Domain(PYTHON, list(_in_code("ai4u_edu", "**.py", "python", PYTHON_KEYWORDS)))
     python.texts += _in_code("web", "pages/**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
+    # words of Typer around the help, which it looks up in the same domain
+    python.texts += _in_code("typer", "**.py", "python", PYTHON_KEYWORDS, _PACKAGES)
     python.texts += [(text, "ai4u_edu/page/panel") for text in form_texts()]
     page = Domain(PAGE, list(_in_code("web", "**.js", "javascript", PAGE_KEYWORDS)))
     # a program runs in the page, too
@@ -125,10 +129,10 @@ def domains() -> list[Domain]:
 
 
 def _in_code(
-    folder: str, pattern: str, method: str, keywords: Keywords
+    folder: str, pattern: str, method: str, keywords: Keywords, root: Path = ROOT
 ) -> Iterator[tuple[English, str]]:
     extracted = extract_from_dir(
-        ROOT / folder,
+        root / folder,
         method_map=[("node_modules/**", "ignore"), ("vendor/**", "ignore"), (pattern, method)],
         options_map={"pages/**.html": {"trimmed": "true", "silent": "false"}},
         keywords=keywords,
