@@ -115,6 +115,7 @@ class Domain:
 def domains() -> list[Domain]:
     """Return all domains, with all English texts."""
     python = Domain(PYTHON, list(_in_code("ai4u_edu", "**.py", "python", PYTHON_KEYWORDS)))
+    python.texts += _in_code("ai4u_edu", "**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += _in_code("web", "pages/**.html", "jinja2", PYTHON_KEYWORDS)
     python.texts += [(text, "ai4u_edu/cli") for text in help_texts()]
     # words of Typer around the help, which it looks up in the same domain
@@ -134,7 +135,9 @@ def _in_code(
     extracted = extract_from_dir(
         root / folder,
         method_map=[("node_modules/**", "ignore"), ("vendor/**", "ignore"), (pattern, method)],
-        options_map={"pages/**.html": {"trimmed": "true", "silent": "false"}},
+        options_map={pattern: {"trimmed": "true", "silent": "false"}}
+        if method == "jinja2"
+        else None,
         keywords=keywords,
     )
     for file, _, text, *_ in sorted(extracted, key=lambda each: each[:2]):

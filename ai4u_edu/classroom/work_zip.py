@@ -30,6 +30,8 @@ from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.runner import VIEW
 from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.lessons import progress_file
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import library_text, translate
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.networks import FOLDER as TAUGHT
 
@@ -41,9 +43,9 @@ MISSIONS = "missions.json"
 SCENES = "scenes"
 Files = Iterator[tuple[str, bytes]]
 _Rows = list[tuple[object, ...]]
-_ENDS = {"fell": "fell", "lost": "lost", "time": "time was up", "over": "not reached"}
+_ENDS = {"fell": _("fell"), "lost": _("lost"), "time": _("time was up"), "over": _("not reached")}
 """Words for the end of a drive that did not reach the goal."""
-_STATES = {"solved": "solved", "tried": "not yet", "hint": "not yet, with hints"}
+_STATES = {"solved": _("solved"), "tried": _("not yet"), "hint": _("not yet, with hints")}
 
 
 def class_zip(live: LiveClass) -> IO[bytes]:
@@ -242,7 +244,7 @@ def _results_page(live: LiveClass) -> str:
 
     Exercises that nobody has begun are left out.
     """
-    begun = {exercise for _, exercise in live.progress.entries}
+    begun = {exercise for _seat, exercise in live.progress.entries}
     return render_html(
         "classroom/results.html",
         seats=live.seats.all(),
@@ -252,11 +254,16 @@ def _results_page(live: LiveClass) -> str:
         stars=_star_rows(live),
         missions=_mission_rows(live),
         mistakes=[
-            (row["exercise"], len(row["seats"]), row["count"], row["sentence"], row["guide"])
+            (
+                row["exercise"],
+                len(row["seats"]),
+                row["count"],
+                *map(translate, (row["sentence"], row["guide"])),
+            )
             for row in misconceptions(live.progress.mistakes)
         ],
         program_mistakes=[
-            (row["title"], len(row["seats"]), row["count"], row["guide"])
+            (translate(row["title"]), len(row["seats"]), row["count"], translate(row["guide"]))
             for row in live.program_runs.mistakes()
         ],
         races=_race_results(live),
@@ -279,7 +286,8 @@ def _mission_rows(live: LiveClass) -> Iterator[tuple[object, ...]]:
     for seat in live.seats.all():
         for name, reached in sorted(live.missions.of_seat(seat.number).items()):
             mission = live.missions.known.get(name)
-            title, steps = ("", "") if mission is None else (mission.title, len(mission.steps))
+            title = "" if mission is None else translate(library_text(mission.title))
+            steps = "" if mission is None else len(mission.steps)
             yield seat.name, name, title, reached.steps, steps, reached.stars
 
 
@@ -299,7 +307,7 @@ def _race_results(live: LiveClass) -> Iterator[tuple[str, _Rows]]:
         for place, (room, (outcome, seconds)) in enumerate(best.items(), 1):
             names = " & ".join(each.name for each in live.all_seats_of(room)) or room
             is_winner = outcome in WINNING
-            end = f"{seconds:.2f} s" if is_winner else _ENDS.get(outcome, outcome)
+            end = f"{seconds:.2f} s" if is_winner else translate(_ENDS.get(outcome, outcome))
             rows.append((place if is_winner else "", names, end))
         yield title, rows
 

@@ -18,6 +18,7 @@ from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import Exercise, find
 from ai4u_edu.lessons.notebook_output import marked
 from ai4u_edu.lessons.progress_file import FILE, ExerciseProgress, read_entries
+from ai4u_edu.lessons.translation import translated_title
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
 
@@ -73,6 +74,7 @@ class ClassProgress:
             all_exercises=exercises,
             hardest=[each for each in hardest if each.stuck],
             marked=marked,
+            translated_title=translated_title,
         )
 
 

@@ -13,6 +13,7 @@ from ai4u_edu.lessons.diagnoses import COMMON
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.lessons.notebook_output import marked
 from ai4u_edu.lessons.progress_file import ProgressFile
+from ai4u_edu.locale import reader
 
 EVIL = "=HYPERLINK(<b>"
 
@@ -60,6 +61,14 @@ def test_a_mistake_that_any_exercise_may_have_is_said_in_words(tmp_path: Path) -
     hand_in(tmp_path / "ann", passed=False, diagnosis="any/endless")
     text = collect(tmp_path).page()
     assert marked(f"1: {COMMON['endless']}") in text
+
+
+def test_the_page_is_in_the_readers_language(handed_in: Path) -> None:
+    with reader("pt_BR"):
+        text = collect(handed_in).page()
+    assert '<html lang="pt-BR">' in text
+    assert "2 estudantes." in text
+    assert "<h2>Erros</h2>" in text
 
 
 def test_files_are_left_as_they_are_and_can_be_collected_again(handed_in: Path) -> None:

@@ -5,7 +5,7 @@ from functools import lru_cache
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from starlette.responses import HTMLResponse
 
-from ai4u_edu.locale import catalogue, ngettext
+from ai4u_edu.base.html_template import with_texts
 from ai4u_edu.page.server.page import FRAME_ANCESTORS, with_catalogue
 from ai4u_edu.page.server.web_files import ALWAYS_ASK, WebFiles, web_folder
 
@@ -42,17 +42,11 @@ def page_text(name: str, **values: str) -> str:
 
 @lru_cache(maxsize=1)
 def _templates() -> Environment:
-    templates = Environment(
-        loader=FileSystemLoader(web_folder() / "pages"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        extensions=["jinja2.ext.i18n"],
-        keep_trailing_newline=True,
+    return with_texts(
+        Environment(
+            loader=FileSystemLoader(web_folder() / "pages"),
+            autoescape=True,
+            undefined=StrictUndefined,
+            keep_trailing_newline=True,
+        )
     )
-    templates.policies["ext.i18n.trimmed"] = True
-    # chosen when a page is rendered: each has its reader
-    templates.install_gettext_callables(  # type: ignore[attr-defined]  # of the extension
-        lambda text: catalogue().message(text),
-        lambda one, many, number: catalogue().translate(ngettext(one, many, number)),
-    )
-    return templates
