@@ -17,6 +17,9 @@ import json
 
 names = {}
 
+def translate(catalogue):
+    pass
+
 def watch(report):
     pass
 
