@@ -10,8 +10,6 @@ from tests import translations
 from tests.docs_site.staging import Staging, anchors
 from tests.translations import TRANSLATED
 
-pytestmark = pytest.mark.needs("dev")
-
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_links_lead_to_headings_in_each_language(language: str, tmp_path: Path) -> None:

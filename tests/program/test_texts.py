@@ -11,6 +11,8 @@ from ai4u_edu.program import Program, ProgramError, host
 from ai4u_edu.program.texts import make_texts_with, translate_with
 from tests.translations import domains
 
+pytestmark = pytest.mark.needs("dev")
+
 
 @pytest.fixture(autouse=True)
 def english_again() -> Iterator[None]:

@@ -1,0 +1,5 @@
+"""All of it needs Babel, by which its pages are translated."""
+
+import pytest
+
+pytestmark = pytest.mark.needs("dev")
