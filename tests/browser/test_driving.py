@@ -32,9 +32,17 @@ def held(site: ServedViser) -> list[str]:
 
 
 def stays_still(site: ServedViser) -> bool:
-    """Return True if the robot comes to rest, and stays there for 0.4 s of the world."""
+    """Return True if the robot comes to rest, and stays there for 0.4 s of the world.
+
+    Raises:
+        AssertionError: it goes on; the text says where it was and what moved it.
+    """
     until(lambda: did_not_move(site, 12))  # longer than two decisions take
-    return did_not_move(site, 24)
+    *rest, begin = site.pose()
+    until(lambda: site.pose()[3] >= begin + 24)
+    *pose, end = site.pose()
+    assert pose == rest, f"{rest} at {begin}, {pose} at {end}, {held(site)}, {site.room.move}"
+    return True
 
 
 def did_not_move(site: ServedViser, ticks: int) -> bool:
