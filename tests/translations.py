@@ -31,8 +31,8 @@ from ai4u_edu.lessons.translation import texts_of, translated_cell
 from ai4u_edu.locale import LANGUAGES, LESSONS, LIBRARY, PAGE, PYTHON, SOURCE
 from ai4u_edu.locale.catalogues import catalogue_file
 from ai4u_edu.missions.mission import library_missions
-from ai4u_edu.page.panel.form_texts import form_texts
 from ai4u_edu.scenes import Scene
+from tests.form_texts import form_texts
 
 ROOT = Path(__file__).parents[1]
 DOCS = "docs"

@@ -332,14 +332,14 @@ class ClassLearner:
             waiting = UNREACHABLE
         return LearningState(
             is_over=latest.is_over,
-            problem=unpacked(latest.problem),
+            problem=latest.problem,
             waiting=waiting,
             errors=[round(error, 4) for error in latest.errors],
             drives=latest.drives,
             decisions=latest.decisions,
             alike=round(latest.alike, 3),
             commonest=round(latest.commonest, 3),
-            remarks=[*map(unpacked, latest.remarks)],
+            remarks=[*latest.remarks],
         )
 
     def begin(self, scene: str, drives: Sequence[Path], agent: str) -> None:

@@ -192,7 +192,7 @@ class ClassPractice:
         state = self._trainings.practice(self._key)
         if self._is_left.is_set() or state is None or state.problem == STOPPED:
             return None
-        return unpacked(state.problem)
+        return state.problem
 
     def kill(self) -> None:
         """End it; the practice can go on later, with a new request."""

@@ -13,7 +13,6 @@ from typing import Protocol
 from msgspec import Struct
 
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import unpacked
 from ai4u_edu.page.editing.editor import ClassTrainings
 from ai4u_edu.teach.background import send_request, start_process
 from ai4u_edu.teach.learning import STOPPED, UNREACHABLE
@@ -118,7 +117,7 @@ class ClassTask:
     def problem(self) -> str:
         """Sentence about why it was ended; empty if it was not."""
         task = self._trainings.task(self._key)
-        return "" if task is None else unpacked(task.problem)
+        return "" if task is None else task.problem
 
     def notes(self) -> Iterator[Sequence[bytes]]:
         """Yield all lines so far whenever there are more, until the work has ended."""

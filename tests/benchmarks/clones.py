@@ -11,22 +11,19 @@ Arguments: ``--seeds N`` (drives and networks of each way; six by default).
 
 import argparse
 import math
-import os
 import statistics
 import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
-for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ[variable] = "1"  # NumPy looks at it only when it is loaded
+import numpy as np
 
-import numpy as np  # noqa: E402
-
-from ai4u_edu import Scene  # noqa: E402
-from ai4u_edu.learn.small_trainer import clone  # noqa: E402
-from ai4u_edu.recording import Episode, Recorder  # noqa: E402
-from ai4u_edu.teach.network_score import score_network  # noqa: E402
+from ai4u_edu import Scene
+from ai4u_edu.base.numeric_threads import restart_with_one_thread
+from ai4u_edu.learn.small_trainer import clone
+from ai4u_edu.recording import Episode, Recorder
+from ai4u_edu.teach.network_score import score_network
 
 SCENE = "box_chase"
 DRIVES = 5
@@ -119,4 +116,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
+    restart_with_one_thread()
     main()

@@ -136,7 +136,8 @@ def detail(field: ParameterField) -> str:
 def _plain(hint: str) -> str:
     """Return a hint in plain words.
 
-    Where the plain words are others, they are another text to translate; see :func:`form_texts`.
+    Where the plain words are others, they are another text to translate: ``tests/form_texts.py``
+    collects them.
     """
     text = str(hint)
     for pattern, words in _REPLACED:
