@@ -29,7 +29,7 @@ from websockets.exceptions import ConnectionClosed
 
 from tests.benchmarks import tick_lateness
 from tests.classroom.served_class import CODE, ServedClass, served_class
-from tests.load.clients import CAMERA, VISER, is_picture
+from tests.load.clients import CAMERA, is_picture, page_socket, panel_socket, read_all
 
 HOLD_S = 0.1
 HOLDS_OF_KEYS = 9
@@ -171,7 +171,7 @@ class _Students:
             path = self.url.rstrip("/").replace("http", "ws", 1) + room
             headers = {"Cookie": cookie}
             async with connect(path + "ws/input", additional_headers=headers, proxy=None) as keys:
-                reading = [asyncio.create_task(self._read(keys))]
+                reading = [asyncio.create_task(read_all(keys))]
                 await keys.send(self.keys[0])
                 while (await client.get(room + "api/snapshot")).json()["tick"] == 0:
                     await asyncio.sleep(0.05)
@@ -179,25 +179,15 @@ class _Students:
                 if not self.has_pages:
                     return
                 sockets = await self._open_page(path, headers)
-                reading += [asyncio.create_task(self._read(sockets[1]))]
+                reading += [asyncio.create_task(read_all(sockets[1]))]
                 reading += [asyncio.create_task(self._count(sockets[0], number))]
                 for sent in count():
                     await keys.send(self.keys[sent // HOLDS_OF_KEYS % len(self.keys)])
                     await asyncio.sleep(HOLD_S)
 
     async def _open_page(self, path: str, headers: dict[str, str]) -> list[Any]:
-        page = await connect(
-            path,
-            subprotocols=[VISER],
-            additional_headers=headers,
-            compression=None,
-            max_size=None,
-            proxy=None,
-            ping_interval=None,
-        )
-        panel = await connect(
-            path + "ws/panel", additional_headers=headers, max_size=None, proxy=None
-        )
+        page = await page_socket(path, headers)
+        panel = await panel_socket(path, headers)
         await page.send(CAMERA)
         await panel.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
         return [page, panel]
@@ -208,11 +198,6 @@ class _Students:
                 frame = await page.recv(decode=False)
                 if self.is_counting:
                     self.frames[number] += is_picture(frame)
-
-    async def _read(self, socket: Any) -> None:
-        with suppress(ConnectionClosed):
-            async for _ in socket:
-                pass
 
 
 if __name__ == "__main__":

@@ -19,12 +19,11 @@ from pathlib import Path
 from typing import Any
 
 import psutil
-import zstandard
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 from tests.classroom.served_class import Student, served_class
-from tests.load.clients import CAMERA, VISER
+from tests.load.clients import CAMERA, page_socket, panel_socket, read_all, unpacked
 
 HOLD_S = 0.1
 COURSE = [["KeyW", "KeyA"]] * 49 + [["KeyW"]] * 12
@@ -47,25 +46,15 @@ class Pupil:
 
     async def open(self) -> None:
         """Open the room's page."""
-        path = self._student.address.replace("http", "ws", 1)
-        headers = self._student.cookies
-        self._keys = await connect(path + "ws/input", additional_headers=headers, proxy=None)
-        page = await connect(
-            path,
-            subprotocols=[VISER],
-            additional_headers=headers,
-            compression=None,
-            max_size=None,
-            proxy=None,
-            ping_interval=None,
-        )
+        url, headers = self._student.address, self._student.cookies
+        keys = url.replace("http", "ws", 1) + "ws/input"
+        self._keys = await connect(keys, additional_headers=headers, proxy=None)
+        page = await page_socket(url, headers)
         await page.send(CAMERA)
-        panel = self._panel = await connect(
-            path + "ws/panel", additional_headers=headers, max_size=None, proxy=None
-        )
+        panel = self._panel = await panel_socket(url, headers)
         await panel.send(json.dumps({"type": "show", "agent": "0", "tabs": ["agent"]}))
         self._sockets = [self._keys, page, panel]
-        self._reading = [asyncio.create_task(_read_all(each)) for each in (self._keys, panel)]
+        self._reading = [asyncio.create_task(read_all(each)) for each in (self._keys, panel)]
         self._reading.append(asyncio.create_task(self._count(page)))
 
     async def close(self) -> None:
@@ -87,9 +76,7 @@ class Pupil:
         with suppress(ConnectionClosed):
             while True:
                 frame = await page.recv(decode=False)
-                plain, small = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
-                text = zstandard.decompress(frame[16 : 16 + small], max_output_size=plain)
-                self.pictures += text.count(b"/ink/")
+                self.pictures += unpacked(frame).count(b"/ink/")
 
     async def drive(self, seconds: float, *also: str) -> None:
         """Drive for a while, with some keys held besides."""
@@ -144,12 +131,6 @@ async def measure(student: Student, served: psutil.Process, pairs: int, seconds:
         f"{verdict} {MAX_SHARE:.0%}"
     )
     await pupil.close()
-
-
-async def _read_all(socket: Any) -> None:
-    with suppress(ConnectionClosed):
-        async for _ in socket:
-            pass
 
 
 def _ticks(student: Student) -> int:

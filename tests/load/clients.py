@@ -5,6 +5,7 @@ import gc
 import json
 import resource
 import time
+from collections.abc import Mapping
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import Any, NamedTuple
@@ -68,7 +69,7 @@ def viewers(url: str, count: int, stopped: int, seconds: float, ends: Connection
     frames = [0] * count
 
     async def look(number: int, end: float) -> None:
-        async with _page(url) as page, _panel(url) as panel:
+        async with page_socket(url) as page, panel_socket(url) as panel:
             await page.send(CAMERA)
             await panel.send(json.dumps({"type": "show", "agent": str(number), "tabs": ["agent"]}))
             if number < stopped:
@@ -76,7 +77,7 @@ def viewers(url: str, count: int, stopped: int, seconds: float, ends: Connection
                 page.transport.abort()
                 panel.transport.abort()
                 return
-            reading = asyncio.create_task(_read_all(panel))
+            reading = asyncio.create_task(read_all(panel))
             warm = end - seconds
             with suppress(TimeoutError, ConnectionClosed):
                 async with asyncio.timeout(end - time.monotonic()):
@@ -122,24 +123,36 @@ def flood(url: str, _count: int, _unused: int, seconds: float, ends: Connection)
                 await asyncio.gather(
                     pour(connect(path + "ws/input", proxy=None), '{"type": "take"}'),
                     pour(connect(path + "ws/remote", proxy=None, subprotocols=[REMOTE]), late),
-                    pour(_panel(url), '{"type": "show", "agent": "0"}'),
+                    pour(panel_socket(url), '{"type": "show", "agent": "0"}'),
                 )
                 # viser's socket slows down who says too much, and goes on
-                await pour(_page(url), CAMERA)
+                await pour(page_socket(url), CAMERA)
 
     _run(main, seconds, ends, lambda: Found({}, [], closes, 0.0))
 
 
 def is_picture(frame: bytes) -> bool:
     """Return True for a frame with moved bodies, False for one with data of a single page."""
+    return b"/bodies" in unpacked(frame)
+
+
+def unpacked(frame: bytes) -> bytes:
+    """Return the messages of a frame of viser's socket."""
     plain, small = (int.from_bytes(frame[at : at + 8], "little") for at in (0, 8))
-    return b"/bodies" in zstandard.decompress(frame[16 : 16 + small], max_output_size=plain)
+    return zstandard.decompress(frame[16 : 16 + small], max_output_size=plain)
 
 
-def _page(url: str) -> Any:
+def page_socket(url: str, headers: Mapping[str, str] | None = None) -> connect:
+    """Return the connection to a page's picture.
+
+    Args:
+        url: of the page, with a slash at its end.
+        headers: of the request, such as a cookie.
+    """
     return connect(
-        url.rstrip("/").replace("http", "ws", 1),
+        url.replace("http", "ws", 1),
         subprotocols=[VISER],
+        additional_headers=headers,
         compression=None,
         max_size=None,
         proxy=None,
@@ -147,14 +160,20 @@ def _page(url: str) -> Any:
     )
 
 
-def _panel(url: str) -> Any:
-    return connect(url.replace("http", "ws", 1) + "ws/panel", max_size=None, proxy=None)
+def panel_socket(url: str, headers: Mapping[str, str] | None = None) -> connect:
+    """Return the connection to a page's panel; see :func:`page_socket`."""
+    return connect(
+        url.replace("http", "ws", 1) + "ws/panel",
+        additional_headers=headers,
+        max_size=None,
+        proxy=None,
+    )
 
 
-async def _read_all(panel: Any) -> None:
-    """Read what the panel's socket sends while its agent's tab is open."""
+async def read_all(socket: Any) -> None:
+    """Read what a socket sends, until it is closed."""
     with suppress(ConnectionClosed):
-        async for _ in panel:
+        async for _ in socket:
             pass
 
 
