@@ -2,8 +2,10 @@
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.locale import catalogue
@@ -16,6 +18,8 @@ from ai4u_edu.recording import Ghosts
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot
+
+T = TypeVar("T")
 
 MAX_CACHED = 200
 """Most texts that a cache holds; it is emptied then."""
@@ -30,17 +34,35 @@ class PartCache:
     def __init__(self) -> None:
         self._snapshot: Snapshot | None = None
         self._of_snapshot: dict[object, bytes] = {}
+        self._shared: dict[Callable[[Snapshot], Any], Any] = {}
         self._by_key: dict[object, bytes] = {}
 
     def of_snapshot(self, snapshot: Snapshot, key: object, build: Callable[[], object]) -> bytes:
         """Return a part of a snapshot; it is kept until the next snapshot."""
-        if snapshot is not self._snapshot:
-            self._snapshot, self._of_snapshot = snapshot, {}
+        self._follow(snapshot)
         return _cached(self._of_snapshot, key, build)
+
+    def shared(self, snapshot: Snapshot, build: Callable[[Snapshot], T]) -> T:
+        """Return a value that several parts of a snapshot contain; it is kept likewise.
+
+        Args:
+            snapshot: the snapshot.
+            build: makes the value; the same function for each of these parts.
+        """
+        self._follow(snapshot)
+        if build not in self._shared:
+            self._shared[build] = build(snapshot)
+        value: T = self._shared[build]
+        return value
 
     def by_key(self, key: object, build: Callable[[], object]) -> bytes:
         """Return a part that does not change while its key is the same."""
         return _cached(self._by_key, key, build)
+
+    def _follow(self, snapshot: Snapshot) -> None:
+        """Forget what belongs to an earlier snapshot."""
+        if snapshot is not self._snapshot:
+            self._snapshot, self._of_snapshot, self._shared = snapshot, {}, {}
 
 
 @dataclass(frozen=True)
@@ -65,6 +87,8 @@ class PanelContext:
     cache: PartCache = field(default_factory=PartCache)
     slow_work: asyncio.Semaphore = field(default_factory=lambda: asyncio.Semaphore(1))
     """Held by a page whose command does slow work in another thread."""
+    look: asyncio.Lock = field(default_factory=asyncio.Lock)
+    """Held by the page that looks for changed parts; see :meth:`page_turn`."""
     clock: Callable[[], float] = time.monotonic
     began: float = field(default_factory=time.monotonic)
     """Time (s) of the clock from which periods count; see :meth:`until_next_look`."""
@@ -76,6 +100,17 @@ class PanelContext:
         Worlds in other processes have other moments: else a class's rooms would all look at once.
         """
         return period - (self.clock() - self.began) % period
+
+    @asynccontextmanager
+    async def page_turn(self) -> AsyncIterator[None]:
+        """Let one page look for changed parts, then the loop's other work, then the next page.
+
+        All pages look at the same moments, and asyncio runs all tasks whose time has come in a row.
+        With thirty pages that each show another agent, percepts of scripts would wait for them all.
+        """
+        async with self.look:
+            yield
+            await asyncio.sleep(0)
 
     def required_editor(self) -> SceneEditor:
         """Return the editor.

@@ -232,22 +232,33 @@ class _PanelConnection:
     async def _send_parts(self) -> None:
         period = 1 / self._context.runner.frame_budget.texts_per_s
         while True:
-            # cleared before the parts are read, so that a change meanwhile makes another round
-            self._changed.clear()
-            self._view.refresh()
-            self._settle()
-            for name in self._view.take_asked_again():
-                self._sent.pop(name, None)
+            async with self._context.page_turn():
+                parts = self._changed_parts()
             with _error_log.caught():
-                for name, text in self._due_parts():
-                    if self._sent.get(name) != text:
-                        self._sent[name] = text
-                        await self._send_text(text.decode())
+                # after the turn, so that a page that reads slowly keeps no other one waiting
+                for name, text in parts:
+                    self._sent[name] = text
+                    await self._send_text(text.decode())
             # changes that come together are sent together
             await asyncio.sleep(MIN_SEND_S)
             with suppress(TimeoutError):
                 async with asyncio.timeout(self._context.until_next_look(period)):
                     await self._changed.wait()
+
+    def _changed_parts(self) -> list[tuple[str, bytes]]:
+        """Return the parts that differ from what the page was sent last."""
+        # cleared before the parts are read, so that a change meanwhile makes another round
+        self._changed.clear()
+        self._view.refresh()
+        self._settle()
+        for name in self._view.take_asked_again():
+            self._sent.pop(name, None)
+        parts = []
+        with _error_log.caught():
+            for name, text in self._due_parts():
+                if self._sent.get(name) != text:
+                    parts.append((name, text))
+        return parts
 
     def _due_parts(self) -> Parts:
         yield from due_parts(self._context, self._view)

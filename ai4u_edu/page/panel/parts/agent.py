@@ -26,7 +26,7 @@ from ai4u_edu.page.panel.parts.sensors import (
 from ai4u_edu.snapshot import AgentState, Need, Snapshot
 from ai4u_edu.snapshot.agent_words import ending, script_problem, title
 from ai4u_edu.snapshot.block_info import ActuatorInfo
-from ai4u_edu.snapshot.theme import body_colour, group_colours
+from ai4u_edu.snapshot.theme import Rgb, body_colour, group_colours
 
 MAX_PAID_DECISIONS = 6
 """Most decisions in the list of the latest rewards; those without a reward are left out."""
@@ -246,7 +246,7 @@ def agent_part(
         problem=script_problem(agent),
         script=None if agent.remote is None else _script(agent.remote),
         clipped=agent.clipped,
-        sensors=_readings(snapshot, agent, shown),
+        sensors=_readings(context, snapshot, agent, shown),
         needs=[_need(need) for need in agent.needs],
         action=[
             component
@@ -260,13 +260,15 @@ def agent_part(
             for entry in islice(_paid_entries(agent), MAX_PAID_DECISIONS)
         ],
         phases=_phases(agent, snapshot),
-        others=_overview(snapshot) if len(snapshot.agents) > 1 else [],
+        others=context.cache.shared(snapshot, _overview) if len(snapshot.agents) > 1 else [],
     )
 
 
-def _readings(snapshot: Snapshot, agent: AgentState, shown: Collection[str]) -> list[SensorReading]:
+def _readings(
+    context: PanelContext, snapshot: Snapshot, agent: AgentState, shown: Collection[str]
+) -> list[SensorReading]:
     """Return the sensors' readings; titles that several sensors have end with the key."""
-    colours = group_colours(snapshot.static_scene)
+    colours = context.cache.shared(snapshot, _colours)
     titles = [words_of(sensor.block).title for sensor in agent.sensor_infos]
     counts = Counter(titles)
     return [
@@ -281,6 +283,10 @@ def _readings(snapshot: Snapshot, agent: AgentState, shown: Collection[str]) -> 
         )
         for sensor, title in zip(agent.sensor_infos, titles, strict=True)
     ]
+
+
+def _colours(snapshot: Snapshot) -> dict[str, Rgb]:
+    return group_colours(snapshot.static_scene)
 
 
 def _paid_entries(agent: AgentState) -> Iterator[LedgerEntry]:
