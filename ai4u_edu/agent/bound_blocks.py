@@ -108,6 +108,8 @@ class BoundBlocks:
             actuator for actuator in active if type(actuator).on_tick is not Actuator.on_tick
         ]
         self.tick_rewards = [reward for reward in self.rewards if reward.has_ticks]
+        self.tick_sensors: list[Sensor] = []
+        """Known once they are set up."""
         self._places: tuple[Brain, list[tuple[str, Block]]] | None = None
         _claim(agent, self.blocks)
 
@@ -124,6 +126,7 @@ class BoundBlocks:
             self._set_up(reward)
         for sensor in self.sensors:
             self._set_up(sensor)
+        self.tick_sensors = [sensor for sensor in self.sensors if sensor.has_ticks]
         self._lay_out_memory()
         for actuator in self.actuators.values():
             self._set_up(actuator)

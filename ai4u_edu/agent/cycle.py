@@ -9,7 +9,7 @@ The order is a contract::
     each tick: on the first, or on all with repeat_action: begin_of_apply_action, all actuators
                that the action names act, in the action's order, end_of_apply_action; then the
                world ticks; then touched, area_left, area_entered if they have handlers; then
-               actuators' and reward functions' on_tick
+               actuators', reward functions' and sensors' on_tick
     end:       every reward function's on_update, end_of_step, steps += 1; the episode may be over:
                end_of_episode
     sense:     ... the reading that ends one decision is the one that begins the next;
@@ -59,7 +59,7 @@ from ai4u_edu.agent.episode_options import EpisodeOptions, Options
 from ai4u_edu.agent.error_context import add_context
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
-from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc
+from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc, Sensor
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import World
 from ai4u_edu.world.state import WorldState
@@ -522,12 +522,15 @@ class _DecisionCycle:
         self._tick += 1
         if self._has_contact_handlers:
             self.agent.contacts.fire(self.agent, bound.body, bound.view)
-        block: Actuator | RewardFunc | None = None
+        block: Actuator | RewardFunc | Sensor | None = None
         try:
             for block in bound.tick_actuators:
                 block.on_tick(bound.body, bound.view)
             for block in bound.tick_rewards:
                 block.on_tick(bound.body, bound.view)
+            for block in bound.tick_sensors:
+                if block.is_active:
+                    block.on_tick(bound.body, bound.view)
         except Exception as error:
             add_context(error, self.agent, block, _("while {block} of {agent} was in its on_tick"))
             raise
@@ -549,6 +552,7 @@ class _DecisionCycle:
         return self.under_way and not (
             bound.tick_actuators
             or bound.tick_rewards
+            or bound.tick_sensors
             or self._has_contact_handlers
             or agent.begin_of_apply_action.handlers
             or agent.end_of_apply_action.handlers

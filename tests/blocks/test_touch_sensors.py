@@ -9,6 +9,7 @@ from ai4u_edu import (
     CircleShape,
     ControlRequestor,
     EventSensor,
+    FloatArrayCompositeSensor,
     GroundStatusSensor,
     GroupTouchSensor,
     Sensor,
@@ -187,3 +188,55 @@ def test_a_touch_between_two_decisions_is_an_event_and_no_touch() -> None:
     robot.move_to(-3.0, 0.0)
     percept = sim.step()
     assert (float(percept["touch"][0]), float(percept["event"][0])) == (-1.0, 1.0)
+
+
+def crossing(sensors: list[Sensor], ticks: int = 59) -> ControlRequestor:
+    """Return a world whose robot drives through an area of 20 cm within one long decision."""
+    world = small_world()
+    world.add_area("line", CircleShape(radius=0.1), position=(1, 0))
+    return small_sim(sensors, world=world, controller=ahead, skip_frame=ticks)
+
+
+def line_sensors() -> list[Sensor]:
+    return [
+        TouchSensor(target="line"),
+        EventSensor(target="line", perception_key="in"),
+        EventSensor(target="line", event="leave", perception_key="out"),
+    ]
+
+
+def test_an_area_crossed_between_two_decisions_is_read_in_the_next_percept() -> None:
+    sim = crossing(line_sensors())
+    first, second = sim.step(), sim.step()
+    read = [[float(each[key][0]) for key in ("touch", "in", "out")] for each in (first, second)]
+    assert read == [[-1.0, 1.0, 1.0], [-1.0, 0.0, 0.0]]
+    assert sim.world["robot"].position[0] > 2
+
+
+def test_an_area_crossed_between_two_decisions_is_noted_inside_a_composite() -> None:
+    sim = crossing([FloatArrayCompositeSensor(sensors=line_sensors())])
+    assert sim.step()["array"].tolist() == [-1.0, 1.0, 1.0]
+    assert sim.step()["array"].tolist() == [-1.0, 0.0, 0.0]
+
+
+def test_a_copy_of_the_world_in_the_middle_of_a_decision_knows_of_the_area_crossed_in_it() -> None:
+    sim, copy = (crossing(line_sensors()) for _ in range(2))
+    for _ in range(40):  # past the area: that is after 27 to 33 ticks
+        sim.tick()
+    assert sim.is_deciding(sim.agents[0])
+    copy.set_state(sim.get_state())
+    assert copy.step().data == sim.step().data
+    assert float(copy.agents[0].percept["in"][0]) == 1.0
+
+
+def test_events_of_bodies_are_not_looked_for_at_each_tick() -> None:
+    sensors = [EventSensor(target="box"), TouchSensor(target="box")]
+    assert small_sim([*sensors]).agents[0].bound_blocks.tick_sensors == []
+
+
+def test_a_new_episode_forgets_an_area_crossed_before_it() -> None:
+    sim = crossing(line_sensors())
+    for _ in range(40):
+        sim.tick()
+    sim.restart(sim.agents[0])
+    assert float(sim.agents[0].percept["in"][0]) == 0.0

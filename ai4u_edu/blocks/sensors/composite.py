@@ -95,6 +95,17 @@ class FloatArrayCompositeSensor(Sensor):
                 child.on_reset(agent, view)
             child.restart()
 
+    @property
+    def has_ticks(self) -> bool:
+        """True if a child has something to do after every tick."""
+        return any(child.has_ticks for child in self._children)
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Call the children's on_tick."""
+        for child in self._children:
+            if child.has_ticks:
+                child.on_tick(body, view)
+
     def space(self) -> Box:
         """Return the range of the numbers that all children read together."""
         shapes = [child.observation_space().shape or () for child in self._children]

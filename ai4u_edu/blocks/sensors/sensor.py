@@ -123,6 +123,21 @@ class Sensor(Block):
             "dropout": self.dropout > 0,
         }
 
+    @property
+    def has_ticks(self) -> bool:
+        """True if :meth:`on_tick` has something to do; only then is it called."""
+        return type(self).on_tick is not Sensor.on_tick
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Run after every tick of a decision, for what a reading at its end would miss.
+
+        It is called only where a subclass implements it, in every tick: keep it short.
+
+        Args:
+            body: the agent's body.
+            view: read access to the world.
+        """
+
     # -- methods that a sensor implements --------------------------------------------------------
 
     def space(self) -> spaces.Space[Any]:

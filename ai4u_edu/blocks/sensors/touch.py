@@ -40,9 +40,8 @@ class EventSensor(Sensor):
 
     A TouchSensor says what is so now; this one says what has happened since the last reading, so
     that a program or a script reacts to it once. The target is a body, or an area, in which the
-    agent is if its centre is. A touch that began and ended between two decisions counts; an area
-    that was entered and left between two decisions does not. An area in which an episode begins
-    was not entered.
+    agent is if its centre is. What began and ended between two decisions counts, too. An area in
+    which an episode begins was not entered.
 
     Reading: (1,), 0 or 1. Source: ours; AI4U's scenes do it with the signals OnTouch, body_entered
     and body_exited.
@@ -53,13 +52,16 @@ class EventSensor(Sensor):
     target: str
     """Name of the body or area."""
 
-    carried: ClassVar[tuple[str, ...]] = ("_was_there", "_since")
+    carried: ClassVar[tuple[str, ...]] = ("_was_there", "_since", "_has_begun", "_has_ended")
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        self._is_area = False
         self._was_there: bool | None = None
-        """None before the first reading in an area."""
+        """None before the first look at an area."""
         self._since = 0
+        self._has_begun = self._has_ended = False
+        """What has happened since the last reading."""
 
     def space(self) -> Box:
         """Return the range 0..1."""
@@ -68,17 +70,34 @@ class EventSensor(Sensor):
     def on_setup(self, agent: AgentView, view: WorldView) -> None:
         """Look up the target."""
         view.check_target(self.target)
+        self._is_area = self.target in view.areas
 
     def on_reset(self, agent: AgentView, view: WorldView) -> None:
         """Forget past events."""
         self._was_there = None if self.target in view.areas else False
         self._since = view.ticks
+        self._has_begun = self._has_ended = False
+
+    @property
+    def has_ticks(self) -> bool:
+        """True for an area; contacts with bodies are kept by the world."""
+        return self._is_area
+
+    def on_tick(self, body: BodyView, view: WorldView) -> None:
+        """Note an area that was entered or left in this tick."""
+        self._look(body, view)
 
     def read(self, body: BodyView, view: WorldView) -> float:
         """Return the reading."""
+        self._look(body, view)
+        happened = self._has_begun if self.event == "touch" else self._has_ended
+        self._has_begun = self._has_ended = False
+        return float(happened)
+
+    def _look(self, body: BodyView, view: WorldView) -> None:
         is_there = view.touching(body, self.target)
         was_there = is_there if self._was_there is None else self._was_there
         began = not was_there and view.touched_after(body, self.target, self._since)
-        ended = not is_there and (was_there or began)
+        self._has_begun = self._has_begun or began
+        self._has_ended = self._has_ended or (not is_there and (was_there or began))
         self._was_there, self._since = is_there, view.ticks
-        return float(began if self.event == "touch" else ended)
