@@ -48,11 +48,12 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
 
     Args:
         seen: (n, r) all recorded readings, one row each; their mean and spread are kept.
-        space: the action space.
+        space: the action space; of several actuators, that of all their numbers in a row.
         layers: the hidden layers' sizes.
         levels: (r,) count of values of a reading that is a whole number from 0 on: it is one-hot
             encoded, as the next row of a grid may be quite another place. Else 0.
         rays: encoders that replace the bare readings of ray sensors.
+        parts: how many of the numbers each actuator gets, if there are several.
     """
 
     def __init__(
@@ -62,8 +63,10 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         layers: Sequence[int] = LAYERS,
         levels: Sequence[int] = (),
         rays: Sequence[RayNearness] = (),
+        parts: Sequence[int] = (),
     ) -> None:
         super().__init__()
+        self._parts = list(parts)
         self.low: Tensor
         self.high: Tensor
         self.rays = nn.ModuleList(rays)
@@ -110,15 +113,16 @@ class Clone(nn.Module):  # type: ignore[misc]  # seen without its types
         self.register_buffer("wholes", torch.as_tensor(np.flatnonzero(whole)))
         self.register_buffer("ladder", torch.arange(int(whole.max()), dtype=torch.float32))
 
-    def forward(self, *readings: Tensor) -> Tensor:
-        """Return an action for each row of the readings."""
+    def forward(self, *readings: Tensor) -> Tensor | tuple[Tensor, ...]:
+        """Return an action for each row of the readings; of several actuators, one of each."""
         numbers = self.numbers(
             torch.cat([each.to(torch.float32).flatten(1) for each in readings], 1)
         )
         if self.chooses:
             return numbers.argmax(dim=1) + self.first
         # cut, not bent: a jump of nothing at all has to be possible
-        return self.low + 0.5 * (torch.clamp(numbers, -1.0, 1.0) + 1.0) * (self.high - self.low)
+        action = self.low + 0.5 * (torch.clamp(numbers, -1.0, 1.0) + 1.0) * (self.high - self.low)
+        return action.split(self._parts, dim=1) if self._parts else action
 
     def numbers(self, seen: Tensor) -> Tensor:
         """Return the last layer's output."""
@@ -260,8 +264,7 @@ def levels_of(agent: BasicAgent) -> list[int]:
 def write_network(network: Clone, agent: BasicAgent, about: dict[str, Any], path: Path) -> None:
     """Write a network as ONNX, with metadata on its origin and its agent."""
     inputs = inputs_of(agent)
-    (output,) = outputs_of(agent)
-    graph = graph_of(network.eval(), inputs, output)
+    graph = graph_of(network.eval(), inputs, *outputs_of(agent))
     graph.producer_name, graph.producer_version = "ai4u-edu", __version__
     told = about | {
         "version": __version__,

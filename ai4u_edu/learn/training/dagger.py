@@ -8,15 +8,17 @@ Source: DAgger, of S. Ross, G. Gordon and D. Bagnell, "A reduction of imitation 
 structured prediction to no-regret online learning", 2011.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import torch
+from gymnasium import spaces
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.learn.training.algorithms import TORCH_THREADS
@@ -25,6 +27,7 @@ from ai4u_edu.learn.training.evaluating import DEFAULT_MAX_DECISIONS
 from ai4u_edu.learn.training.progress_bar import ProgressBar
 from ai4u_edu.learn.training.rays import rays_of
 from ai4u_edu.learn.training.settings import DaggerSettings
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
 Drive = Callable[[Percept], Mapping[str, Any]]
@@ -49,8 +52,11 @@ class TeacherData:
     def __init__(self, teacher: Callable[[], Drive], scene: Scene, seed: int) -> None:
         self.sim: ControlRequestor = scene.build()
         self.agent: BasicAgent = self.sim.agents[0]
-        ((self.output, self._actuator),) = outputs_of(self.agent).items()
-        self.space = action_space_of(self.agent)
+        self._outputs = list(outputs_of(self.agent))
+        self.space, self.parts = _joined(action_space_of(self.agent), self._outputs)
+        limits = [actuator.limits() for actuator in outputs_of(self.agent).values()]
+        self._low = np.concatenate([low for low, _high in limits])
+        self._high = np.concatenate([high for _low, high in limits])
         self.rhythm: dict[str, Any] = {
             "skip_frame": self.agent.brain.skip_frame,
             "repeat_action": self.agent.brain.repeat_action,
@@ -69,27 +75,59 @@ class TeacherData:
         """Record one more episode; the learner drives most of the time, if there is one."""
         teacher = self._teacher()
         drives = pupil is not None
-        low, high = self._actuator.limits()
 
         def drive(percept: Percept) -> dict[str, Any]:
             nonlocal drives
             if pupil is not None and self._chance.random() < 1 / DECISIONS_PER_TURN:
                 drives = bool(self._chance.random() > TEACHER_SHARE)
-            said = np.atleast_1d(np.asarray(teacher(percept)[self.output], np.float32))
+            action = teacher(percept)
+            said = [np.atleast_1d(np.asarray(action[name], np.float32)) for name in self._outputs]
             seen = self._observer.observe(percept)
             self.seen.append(seen)
-            self.said.append(np.clip(said, low, high))
+            self.said.append(np.clip(np.concatenate(said), self._low, self._high))
             if pupil is None or not drives:
-                return {self.output: said if len(said) > 1 else said[0]}
+                return {
+                    name: part if len(part) > 1 else part[0]
+                    for name, part in zip(self._outputs, said, strict=True)
+                }
             with torch.no_grad():
-                done = pupil(torch.from_numpy(seen)[None])[0].numpy()
-            return {self.output: done}
+                done = pupil(torch.from_numpy(seen)[None])
+            parts = done if isinstance(done, tuple) else (done,)
+            return {name: part[0].numpy() for name, part in zip(self._outputs, parts, strict=True)}
 
         self.agent.use_brain(LocalBrain(controller=drive, **self.rhythm))
         self.sim.reset(self._first + self.episodes)
         self.episodes += 1
         while not self.agent.done and self.agent.steps < DEFAULT_MAX_DECISIONS:
             self.sim.step(self.agent)
+
+
+def _joined(
+    space: spaces.Space[Any], outputs: Sequence[str]
+) -> tuple[spaces.Space[Any], Sequence[int]]:
+    """Return the space of all actuators' numbers in a row, and how many each has.
+
+    Args:
+        space: of one actuator, or a Dict of several, each a Box.
+        outputs: the actuators' names, in their order.
+
+    Raises:
+        SetupError: one of several actuators takes a choice, not numbers.
+    """
+    if not isinstance(space, spaces.Dict):
+        return space, ()
+    boxes: list[Any] = [space[name] for name in outputs]
+    if not all(isinstance(box, spaces.Box) for box in boxes):
+        raise SetupError(
+            _(
+                "expected an agent with one actuator whose numbers have a range, got {space}",
+                space=str(space),
+            )
+        )
+    low, high = (
+        np.concatenate([getattr(box, end).ravel() for box in boxes]) for end in ("low", "high")
+    )
+    return spaces.Box(low, high), [box.low.size for box in boxes]
 
 
 def imitate(
@@ -122,11 +160,11 @@ def imitate(
         pupil: Any = None
         try:
             for each in range(1, rounds + 1):
-                for _ in range(how.episodes):
+                for _episode in range(how.episodes):
                     lessons.episode(pupil)
                 seen, said = np.stack(lessons.seen), np.stack(lessons.said)
                 rays = lessons.rays if how.kinds else []
-                new = Clone(seen, lessons.space, how.layers, lessons.levels, rays)
+                new = Clone(seen, lessons.space, how.layers, lessons.levels, rays, lessons.parts)
                 pupil = _as_scaled(new, pupil)
                 last = each == rounds
                 error = _study(pupil, seen, said, updates * (3 if last else 1), chance)
@@ -163,7 +201,7 @@ def _study(
     optimizer = torch.optim.AdamW(pupil.parameters(), lr=RATE, weight_decay=1e-3)
     falling = torch.optim.lr_scheduler.LambdaLR(optimizer, lambda step: 1 - 0.95 * step / updates)
     error = 0.0
-    for _ in range(updates):
+    for _update in range(updates):
         batch = chance.integers(len(seen), size=2 * BATCH)
         loss = pupil.loss(readings[batch], wanted[batch])
         optimizer.zero_grad()

@@ -77,7 +77,9 @@ def missing() -> str:
     """Return a sentence on single-agent scenes without a network; empty if all have one."""
     alone = [name for name in Scene.names() if len(Scene.load(name).description.agents) == 1]
     without = [name for name in alone if name not in zoo.names()]
-    return f"\nThere is none so far for {', '.join(without)}.\n" if without else ""
+    return (
+        f"\nThere is none for {', '.join(without)}; docs/training.md says why.\n" if without else ""
+    )
 
 
 def _line(name: str) -> str:

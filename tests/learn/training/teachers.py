@@ -9,6 +9,7 @@ import numpy as np
 
 from ai4u_edu import Percept
 from tests.scenes.solvers import Driver, solver_of
+from tests.scenes.solvers.draw_figure import CORNERS
 from tests.scenes.solvers.platform import (
     AHEAD,
     BOUNDS,
@@ -24,6 +25,10 @@ from tests.scenes.solvers.platform import (
 
 RADIUS = 2.6
 BEHIND = 0.4
+AHEAD_M = 0.35
+"""Distance along the outline at which it aims."""
+FASTEST = 0.85
+"""Speed at which it has driven over the longest gap."""
 
 
 def parking() -> Driver:
@@ -90,7 +95,68 @@ def round_the(spike: Point | None) -> tuple[Sequence[float], Sequence[float]]:
     return (25.2, 26.4, 28.8, 30.3), (-1.0, aside, aside, -2.0)
 
 
-OWN: dict[str, Callable[[], Driver]] = {"parking": parking, "platform": platform}
+def draw_figure() -> Driver:
+    """Drives round the house in one direction, at the place of its outline that is a bit ahead.
+
+    The scene's own solver knows which corner is next; here it follows from where the robot is.
+    """
+    corners = np.array(CORNERS)
+    ways = np.roll(corners, -1, axis=0) - corners
+    lengths = np.hypot(*ways.T)
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        place = percept["position"][:2].astype(float)
+        sine, cosine = map(float, percept["heading"])
+        shares = np.clip(((place - corners) * ways).sum(axis=1) / lengths**2, 0, 1)
+        nearest = corners + shares[:, None] * ways
+        off = np.hypot(*(nearest - place).T)
+        edge = int(off.argmin())
+        along = shares[edge] * lengths[edge] + AHEAD_M
+        if along > lengths[edge]:
+            edge, along = (edge + 1) % len(corners), along - lengths[edge]
+        goal = corners[edge] + along / lengths[edge] * ways[edge]
+        angle = math.remainder(
+            math.atan2(*(goal - place)[::-1]) - math.atan2(sine, cosine), 2 * math.pi
+        )
+        ahead = max(0.0, math.cos(angle)) ** 4
+        pen = 1.0 if off.min() < 0.15 else 0.0
+        return {"move": [ahead, np.clip(-3 * angle, -1, 1), 0, 0], "pen": [pen]}
+
+    return drive
+
+
+def endless_line() -> Driver:
+    """Like the scene's own solver, but it remembers nothing: its last action says how far it is.
+
+    Without a line, it drives on a bit faster with each decision, and curves a bit to the side on
+    which the line was. Once it is fast, it was no gap: it turns on the spot, and goes on turning.
+    """
+
+    def drive(percept: Percept) -> dict[str, Any]:
+        eyes = percept["line"]
+        left_wheel, right_wheel = map(float, percept["last_action"])
+        if eyes.all():  # a crossing
+            return {"move": [0.5, 0.5]}
+        if eyes.any():
+            left = float(np.dot(eyes, [1, 0.5, 0, -0.5, -1]) / eyes.sum())
+            return {"move": [0.5 - 0.45 * left, 0.5 + 0.45 * left]}
+        speed, bend = (left_wheel + right_wheel) / 2, (right_wheel - left_wheel) / 2
+        if speed > 0.4 and abs(bend) < 0.27 and speed < FASTEST:
+            bend = float(np.clip(bend, -0.02, 0.02))
+            speed = max(0.5, speed) + 0.04
+            return {"move": [speed - bend, speed + bend]}
+        turn = 0.35 if bend >= 0 else -0.35
+        return {"move": [-turn, turn]}
+
+    return drive
+
+
+OWN: dict[str, Callable[[], Driver]] = {
+    "parking": parking,
+    "platform": platform,
+    "draw_figure": draw_figure,
+    "endless_line": endless_line,
+}
 
 
 def teacher_of(scene: str) -> Driver:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ai4u_edu import Percept, Scene, World
+from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks.brains.network import Network
 from ai4u_edu.learn.training import evaluate
 from ai4u_edu.learn.training.dagger import FIRST_SEED, TeacherData, imitate
@@ -89,3 +90,25 @@ def test_the_teacher_speaks_while_the_pupil_drives() -> None:
 @pytest.mark.parametrize("name", OWN)
 def test_the_teachers_solve_their_scenes(name: str) -> None:
     assert evaluate(OWN[name](), name, episodes=20, quiet=True).success_rate == 1.0
+
+
+def test_several_actuators_are_learned_together(tmp_path: Path) -> None:
+    scene = Scene.load("call")
+    how = DaggerSettings(rounds=2, episodes=2, updates=300, layers=(32,))
+    file = imitate(lambda: solver_of("call"), scene, tmp_path / "a.onnx", how, quiet=True)
+    network = Network(file)
+    assert {port.name: port.shape for port in network.outputs} == {"move": (4,), "speak": (1,)}
+    call, silence = (
+        network.decide({"hear": [0.0], "partner": [cosine, 5.0], "goal": [-1.0]})["speak"][0]
+        for cosine in (1.0, -0.5)
+    )
+    assert call > silence + 0.2
+
+
+def test_a_choice_beside_another_actuator_is_refused(tmp_path: Path) -> None:
+    text = Scene.load("grid_world").dumps()
+    scene = Scene.loads(
+        text.replace("    actuators:\n", "    actuators:\n      - {type: PenActuator}\n", 1)
+    )
+    with pytest.raises(SetupError, match="one actuator whose numbers have a range, got Dict"):
+        imitate(lambda: solver_of("grid_world"), scene, tmp_path / "a.onnx", FEW, quiet=True)
