@@ -2,12 +2,14 @@
 
 A strip shows one thing in time: the opening, a win, a fall, a network that is watched, a program,
 building, and the map with twelve missions. Each is taken on a desk, a tablet and a phone, light
-above dark. World and page are real.
+above dark. ``--scenes ants call`` takes those of scenes instead, which a program or a network
+drives, with the panel folded away. World and page are real.
 """
 
 import argparse
 import io
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,8 @@ from playwright.sync_api import Browser, Page, expect
 from ai4u_edu.missions.mission import library_missions
 from tests.browser.served_viser import ready
 from tests.chromium import browser
-from tests.playing import played
+from tests.playing import Played, played
+from tests.waiting import until
 
 FOLDER = Path(__file__).parents[1] / "build" / "films"
 SIZES = {"desk": (1366, 768), "tablet": (820, 1180), "phone": (390, 844)}
@@ -37,6 +40,18 @@ MISSIONS = (
 )
 """Two of each island up to Teach."""
 Film = Callable[[Page], Iterable[bytes]]
+SOLUTIONS = Path(__file__).parent / "program" / "solutions"
+SCENES = {
+    "ants": ("ant=AntController", "2"),
+    "call": ("blue=zoo", "0.5"),
+    "draw_figure": ("zoo", "0.3"),
+    "printed_track": ("zoo", "1"),
+    "endless_line": ("zoo", "1"),
+    "endless_maze": ("zoo", "1"),
+    "endless_rescue": (f"{SOLUTIONS / 'endless_rescue.py'}:Rescuer", "1"),
+}
+"""Driver and speed of time in the films of scenes."""
+SCENE_MOMENTS = 8
 
 
 def main() -> None:
@@ -44,11 +59,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=FOLDER)
     parser.add_argument("--films", nargs="*", default=list(FILMS), choices=FILMS)
+    parser.add_argument("--scenes", nargs="*", default=[], choices=SCENES)
+    parser.add_argument("--seconds", type=float, default=56, help="of world time, for --scenes")
     parser.add_argument("--sizes", nargs="*", default=list(SIZES), choices=SIZES)
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     with browser() as chromium:
-        for name in options.films:
+        for name in options.scenes:
+            _save([_scene(chromium, name, options.seconds)], options.out / f"{name}.png")
+        for name in [] if options.scenes else options.films:
             film, seed = FILMS[name]
             for size in options.sizes:
                 rows = [_take(chromium, film, seed, size, scheme) for scheme in SCHEMES]
@@ -74,6 +93,33 @@ def _take(chromium: Browser, film: Film, seed: str, size: str, scheme: str) -> l
         pictures = [Image.open(io.BytesIO(each)).convert("RGB") for each in film(page)]
         context.close()
     return pictures
+
+
+def _scene(chromium: Browser, name: str, seconds: float) -> list[Image.Image]:
+    """Return pictures of a scene at equal distances of its time, until an episode is over."""
+    driver, speed = SCENES[name]
+    viewport: Any = {"width": 960, "height": 720}
+    context = chromium.new_context(viewport=viewport)
+    arguments = name, "--brain", driver, "--seed", NEAR_SEED, "--time-scale", speed
+    with played(*arguments, waits_for_key=False) as server:
+        page = context.new_page()
+        page.goto(server.url)
+        ready(page)
+        server.restart(int(NEAR_SEED))
+        pictures = []
+        for number in range(SCENE_MOMENTS):
+            until(partial(_is_due, server, number * seconds / (SCENE_MOMENTS - 1)))
+            pictures.append(Image.open(io.BytesIO(page.screenshot())).convert("RGB"))
+            if server.snapshot()["agents"][0]["terminated"]:
+                break
+        context.close()
+    return pictures
+
+
+def _is_due(server: Played, time: float) -> bool:
+    """Return True once a world has that time (s), or its first agent has reached its goal."""
+    snapshot = server.snapshot()
+    return bool(snapshot["time"] >= time or snapshot["agents"][0]["terminated"])
 
 
 def _unfold(page: Page) -> None:
