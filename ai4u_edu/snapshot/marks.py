@@ -31,8 +31,9 @@ Disc = tuple[float, float, float]
 Corners = npt.NDArray[np.float64]
 _BodyShape = CircleShape | BoxShape | PolygonShape | CapsuleShape | SegmentShape
 
-NOSE = ((0.98, 0.0), (0.6, 0.2), (0.6, -0.2))
-"""Corners of the nose, which points ahead."""
+NOSE = ((0.88, 0.0), (0.56, 0.19), (0.56, -0.19))
+"""Corners of the nose, which points ahead. It ends before the rim: as light as a floor, it would
+look like a notch there."""
 EYES: tuple[Disc, ...] = ((0.38, 0.29, 0.24), (0.38, -0.29, 0.24))
 """Whites of the eyes."""
 PUPIL = 0.13

@@ -40,6 +40,8 @@ from ai4u_edu.world.ink import TILE_M, InkImage
 from ai4u_edu.world.pictures import decode_picture
 
 Points = npt.NDArray[np.float64]
+_Box = tuple[int, int, int, int]
+"""Left, top, right and bottom edge (pixels)."""
 
 SUPERSAMPLING = 2
 """Factor by which everything is drawn larger and then reduced, for antialiasing."""
@@ -49,7 +51,7 @@ MIN_LABELLED_PX = 320
 """Smallest longer side of a picture with labels."""
 LABEL_PX = 12
 """Size of a label's text."""
-LABEL_ALPHA = 150
+LABEL_ALPHA = 205
 """Opacity of a label's plate, of 255."""
 MAX_LABEL_CHARS = 40
 MIN_GRID_PX = 8
@@ -310,30 +312,44 @@ class _Canvas:
             self.pen.ellipse((u - r, v - r, u + r, v + r), fill=colour)
 
     def _labels(self, snapshot: Snapshot) -> None:
-        for floor in self.static_scene.floors:
-            self._label(floor.label, *floor.position)
-        for area in self.static_scene.areas:
-            self._label("" if area.is_flat else area.label or area.name, *area.position)
+        """Draw what is said, then labels, agents' first: none covers an earlier one."""
         states = {state.name: state for state in snapshot.bodies}
-        for body in self.static_scene.bodies:
+        kept: list[_Box] = []
+        for name, text in theme.said(snapshot).items():
+            state = states.get(name)
+            if state is not None and not state.fallen:
+                self._label(text, state.x, state.y + 0.9, kept)
+        agents = self.static_scene.agent_of
+        for body in sorted(self.static_scene.bodies, key=lambda body: body.name not in agents):
             text, state = theme.label_text(self.static_scene, body), states.get(body.name)
             if text and state is not None and not state.fallen:
                 outline = _placed(body.shape.outline(), state.x, state.y, state.heading)
                 x, y = outline.mean(axis=0)
                 reach = np.linalg.norm(outline - (x, y), axis=1).max()
-                self._label(text, x, y - 1.08 * reach, is_below=True)
-        for name, text in theme.said(snapshot).items():
-            state = states.get(name)
-            if state is not None and not state.fallen:
-                self._label(text, state.x, state.y + 0.9)
+                self._label(text, x, y - 1.08 * reach, kept, is_below=True)
+        for area in self.static_scene.areas:
+            self._label("" if area.is_flat else area.label or area.name, *area.position, kept)
+        for floor in self.static_scene.floors:
+            self._label(floor.label, *floor.position, kept)
 
-    def _label(self, text: str, x: float, y: float, *, is_below: bool = False) -> None:
+    def _label(
+        self, text: str, x: float, y: float, kept: list[_Box], *, is_below: bool = False
+    ) -> None:
+        """Draw a label, unless it would cover one of those that are kept already."""
         if not text.strip():
             return
         plate = _plate(text.strip()[:MAX_LABEL_CHARS])
         ((u, v),) = self._pixels(np.array([(x, y)]))
-        place = round(u - plate.width / 2), round(v - (0 if is_below else plate.height / 2))
-        self.image.paste(plate, place, plate)
+        left, top = round(u - plate.width / 2), round(v - (0 if is_below else plate.height / 2))
+        left = max(0, min(left, self.image.width - plate.width))  # else a picture's edge cuts it
+        box = left, top, left + plate.width, top + plate.height
+        if any(
+            box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
+            for other in kept
+        ):
+            return
+        kept.append(box)
+        self.image.paste(plate, (left, top), plate)
 
     def _rays(self, pictures: Iterable[RayPicture]) -> None:
         groups = theme.group_colours(self.static_scene)

@@ -1,11 +1,13 @@
-"""axe-core finds nothing of any kind on whole pages: play with its tabs, blocks, and start."""
+"""axe-core finds nothing of any kind on whole pages, light and dark: play, its tabs, start."""
 
 from collections.abc import Iterator
+from typing import Literal
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
+from tests.browser.schemes import SCHEMES
 from tests.browser.test_panel_accessibility import NO_TRANSITION
 from tests.browser.whole import button, open_tab, press, whole_page
 from tests.playing import Played, played
@@ -19,6 +21,9 @@ def server() -> Iterator[Played]:
         yield server
 
 
+scheme = pytest.mark.parametrize("scheme", SCHEMES)
+
+
 def findings(page: Page) -> list[str]:
     """Return all findings of axe-core in a page."""
     page.wait_for_function(NO_TRANSITION)  # a colour that is still on its way can be any
@@ -28,10 +33,11 @@ def findings(page: Page) -> list[str]:
     ]
 
 
+@scheme
 def test_the_page_of_a_world_has_no_finding(
-    server: Played, chromium: Browser, subtests: pytest.Subtests
+    server: Played, chromium: Browser, subtests: pytest.Subtests, scheme: str
 ) -> None:
-    with whole_page(chromium, server) as page:
+    with whole_page(chromium, server, color_scheme=scheme) as page:
         for tab in ("Drive", "Build", "World", "Past", "Teach"):
             with subtests.test(tab=tab):
                 open_tab(page, tab)
@@ -44,10 +50,11 @@ def test_the_page_of_a_world_has_no_finding(
             assert findings(page) == []
 
 
+@scheme
 def test_the_tab_code_has_no_finding(
-    server: Played, chromium: Browser, subtests: pytest.Subtests
+    server: Played, chromium: Browser, subtests: pytest.Subtests, scheme: str
 ) -> None:
-    with whole_page(chromium, server) as page:
+    with whole_page(chromium, server, color_scheme=scheme) as page:
         open_tab(page, "Code")
         expect(page.locator(".cm-content")).to_be_visible()
         for way in ("Python", "Blocks"):
@@ -58,8 +65,11 @@ def test_the_tab_code_has_no_finding(
                 assert findings(page) == []
 
 
-def test_the_start_page_has_no_finding(server: Played, chromium: Browser) -> None:
-    page = chromium.new_page()
+@scheme
+def test_the_start_page_has_no_finding(
+    server: Played, chromium: Browser, scheme: Literal["light", "dark"]
+) -> None:
+    page = chromium.new_page(color_scheme=scheme)
     page.goto(f"{server.url}start")
     expect(page.get_by_role("heading", level=1)).to_be_visible()
     assert findings(page) == []

@@ -35,7 +35,9 @@ def colour_at(drawn: Picture, snapshot: Snapshot, x: float, y: float) -> tuple[i
 def test_faces_and_rings_are_those_of_the_page(snapshot: Snapshot) -> None:
     drawn = draw_snapshot(snapshot, longest=2000)
     robot, box = snapshot.bodies[:2]
-    assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.8, robot.y) == LIGHT
+    assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.7, robot.y) == LIGHT
+    # a light nose on the rim would look like a notch
+    assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.945, robot.y) == CHASSIS
     assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.48, robot.y + 0.4 * 0.29) == DARK
     assert colour_at(drawn, snapshot, robot.x + 0.4 * 0.22, robot.y + 0.4 * 0.29) == LIGHT
     assert colour_at(drawn, snapshot, robot.x - 0.2, robot.y) == rgb("blue")
@@ -83,6 +85,26 @@ def test_labels_are_half_transparent_and_small_pictures_have_none(snapshot: Snap
             rows, columns = np.nonzero(differs)
             assert 12 <= np.ptp(rows) <= 30
             assert 40 <= np.ptp(columns) <= 80
+
+
+def test_a_label_that_would_cover_an_agent_s_is_left_out_and_none_is_cut(
+    snapshot: Snapshot,
+) -> None:
+    static_scene, robot = snapshot.static_scene, snapshot.bodies[0]
+    (left, _), _ = static_scene.bounds
+
+    def drawn(x: float, y: float, label: str) -> Picture:
+        """Draw an area with a label, in a picture with room for labels."""
+        (area,) = static_scene.areas[:1]
+        areas = (area.model_copy(update={"label": label, "position": (x, y)}),)
+        there = replace(static_scene, areas=areas)
+        return draw_snapshot(replace(snapshot, static_scene=there), longest=640)
+
+    below = robot.y - 0.6
+    assert (drawn(robot.x, below, "a field") == drawn(robot.x, below, " ")).all()
+    differs = drawn(left - 0.5, 0.0, "a long label") != drawn(left - 0.5, 0.0, " ")
+    columns = np.nonzero(differs.any(axis=2))[1]
+    assert np.ptp(columns) > 60  # of which half would lie beyond the edge
 
 
 def test_a_ground_that_is_kept_is_the_same(snapshot: Snapshot) -> None:

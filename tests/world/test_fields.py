@@ -147,6 +147,30 @@ def test_crossings_and_gaps_are_as_many_as_said() -> None:
             assert crossed == crossings, (seed, crossings)
 
 
+@pytest.mark.parametrize("gaps", [0, 1])
+def test_no_corner_sticks_out_of_a_line_in_its_curves(gaps: int) -> None:
+    line = LineField(width=8, height=6, length=20, curves=1.0, crossings=1, gaps=gaps)
+    for seed in range(4):
+        pieces = [
+            each for each in generated(line, seed).pieces if isinstance(each, AreaDescription)
+        ]
+        outlines = [np.array(Region(piece).outline()) for piece in pieces]
+        corners = [(number, x, y) for number, each in enumerate(outlines) for x, y in each]
+        free = [
+            (x, y)
+            for number, x, y in corners
+            if not any(
+                other != number
+                and (
+                    Region(piece).contains(x, y)
+                    or np.hypot(*(outlines[other] - (x, y)).T).min() < 1e-6
+                )
+                for other, piece in enumerate(pieces)
+            )
+        ]
+        assert len(free) == 4 + 4 * gaps, seed  # two at each loose end
+
+
 def _cross(one: Region, other: Region) -> bool:
     """Return True if the middle lines of two long boxes cross inside both."""
 

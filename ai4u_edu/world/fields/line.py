@@ -64,19 +64,34 @@ class LineBase(FieldBase):
         return {self.start: "start", self.goal: "goal"} | dict.fromkeys(self.marks, "marks")
 
     def painted(self, parts: Iterable[tuple[Point, Point]]) -> list[AreaDescription]:
-        """Return the areas of a line's straight parts; those that go on straight are joined."""
-        return [
-            AreaDescription(
-                name=f"field line {number}",
-                shape=BoxShape(size=(math.dist(one, other) + self.line_width, self.line_width)),
-                position=((one[0] + other[0]) / 2, (one[1] + other[1]) / 2),
-                heading_deg=math.degrees(math.atan2(other[1] - one[1], other[0] - one[0])),
-                tags=("line",),
-                colour="black",
-                paint=True,
+        """Return the areas of a line's straight parts; those that go on straight are joined.
+
+        Each is longer than its part: at a loose end by half the line's width, and in a bend just as
+        far as its outer edge meets that of its neighbour, so that no corner sticks out.
+        """
+        joined = list(_joined(parts))
+        bends = [math.pi, *(_bend(*pair) for pair in pairwise(joined)), math.pi]
+        areas = []
+        for number, ((one, other), around) in enumerate(
+            zip(joined, pairwise(bends), strict=True), 1
+        ):
+            before, after = (
+                self.line_width / 2 * min(1.0, math.tan(bend / 2)) / math.dist(one, other)
+                for bend in around
             )
-            for number, (one, other) in enumerate(_joined(parts), 1)
-        ]
+            begin, end = _between(one, other, -before), _between(one, other, 1 + after)
+            areas.append(
+                AreaDescription(
+                    name=f"field line {number}",
+                    shape=BoxShape(size=(math.dist(begin, end), self.line_width)),
+                    position=((begin[0] + end[0]) / 2, (begin[1] + end[1]) / 2),
+                    heading_deg=math.degrees(math.atan2(other[1] - one[1], other[0] - one[0])),
+                    tags=("line",),
+                    colour="black",
+                    paint=True,
+                )
+            )
+        return areas
 
     def parts_in(
         self, path: Sequence[Cell], index: int, *, has_gap: bool
@@ -320,3 +335,11 @@ def _joined(parts: Iterable[tuple[Point, Point]]) -> Iterator[tuple[Point, Point
 def _same_heading(one: tuple[Point, Point], other: tuple[Point, Point]) -> bool:
     (ax, ay), (bx, by) = ((end[0] - begin[0], end[1] - begin[1]) for begin, end in (one, other))
     return abs(ax * by - ay * bx) < 1e-9 and ax * bx + ay * by > 0
+
+
+def _bend(one: tuple[Point, Point], other: tuple[Point, Point]) -> float:
+    """Return the angle (rad) by which a line turns from a part to the next; pi if it has a gap."""
+    if math.dist(one[1], other[0]) > 1e-9:
+        return math.pi
+    headings = [math.atan2(end[1] - begin[1], end[0] - begin[0]) for begin, end in (one, other)]
+    return abs(math.remainder(headings[1] - headings[0], math.tau))

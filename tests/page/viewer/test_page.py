@@ -99,7 +99,7 @@ SPOTS = {
     "white of the left eye": (0.48, 0.29),
     "white of the right eye": (0.48, -0.29),
     "pupil": (0.27, 0.29),
-    "nose": (0.82, 0.0),
+    "nose": (0.7, 0.0),
 }
 """Places on the robot, in its radii; its target is behind it, so its pupils look back."""
 
