@@ -152,6 +152,21 @@ def test_the_end_of_an_episode_and_a_new_one(site: ServedViser) -> None:
     expect(banner).to_have_count(0)
 
 
+def test_over_the_small_picture_of_a_phone_s_open_panel_banners_are_low(site: ServedViser) -> None:
+    page = site.page(width=390, height=844)
+    page.evaluate(
+        "Object.assign(document.documentElement.dataset, "
+        "{ ai4uPanel: 'open', ai4uLayout: 'sheet' })"
+    )
+    agent, runner = site.room.sim.agents[0], site.room.runner
+    banner = page.locator(".ai4u-banner")
+    runner.submit(lambda: agent.add_reward(100, request_done=True, name="goal")).result(LIMIT_S)
+    expect(banner.get_by_role("button")).to_have_text(["Play again"])  # the panel has the others
+    box = banner.bounding_box()
+    assert box is not None
+    assert box["y"] + box["height"] < 60
+
+
 def test_an_error_is_told_as_text_and_can_be_reset(site: ServedViser) -> None:
     page = site.page()
 
