@@ -364,9 +364,11 @@ class Holds(Check):
     def follow(self) -> Follow:
         """Look at the latest decisions of an episode."""
         latest: deque[bool] = deque(maxlen=self.decisions)
+        needed = math.ceil(self.share * self.decisions)
         episode = None
-        while len(latest) < self.decisions or sum(latest) < self.share * self.decisions:
-            now: Decision = yield self._words(latest)
+        while sum(latest) < needed:
+            count = f"{sum(latest)} of {needed} decisions"
+            now: Decision = yield f"{self.word}: {count}" if self.word else count
             if now.episode != episode:
                 latest.clear()
                 episode = now.episode
@@ -375,10 +377,6 @@ class Holds(Check):
                 latest.clear()
             else:
                 latest.append(has_all)
-
-    def _words(self, latest: "deque[bool]") -> str:
-        count = f"{sum(latest)} of {self.decisions} decisions"
-        return f"{self.word}: {count}" if self.word else count
 
     def quantities(self) -> Sequence[str]:
         """Return those of the ranges."""

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Locator, expect
+from playwright.sync_api import Browser, FloatRect, Locator, expect
 
 from ai4u_edu.page.server.web_files import FOLDERS, web_folder
+from tests.browser.blocks import State, act, block, program, stack
 from tests.browser.blocks_keys import choose, to_group
 from tests.browser.code_tab import PROGRAM, CodePage
 from tests.browser.fake_panel import PARTS
@@ -57,6 +58,15 @@ class BlocksPage(CodePage):
         chooser.value.set_files(
             {"name": "mine.py", "mimeType": "text/x-python", "buffer": text.encode()}
         )
+
+    def open_blocks(self, *blocks: State) -> None:
+        """Open a file with blocks below "forever"."""
+        script = """async (blocks) => {
+          const { joinProgram } = await import("./web/blocks/text.js");
+          return joinProgram("", blocks, true);
+        }"""
+        shown = program(stack(block("on_decision"), *blocks))
+        self.open_file(self.page.evaluate(script, shown))
 
     def ran(self) -> Locator:
         return self.page.locator(".ai4u-blocks-ran")
@@ -215,6 +225,32 @@ def test_blocks_of_another_robot_are_kept(tab: BlocksPage) -> None:
     assert tab.text == "x = 1\n"
     tab.page.get_by_label("Earlier runs").select_option(index=1)
     expect(tab.canvas).to_contain_text("my steps")
+
+
+def test_wide_blocks_are_shown_smaller(tab: BlocksPage) -> None:
+    def box(thing: Locator) -> FloatRect:
+        found = thing.bounding_box()
+        assert found is not None
+        return found
+
+    def right(thing: Locator) -> float:
+        return box(thing)["x"] + box(thing)["width"]
+
+    def letters_px() -> float:
+        return box(tab.canvas.get_by_text("forever"))["height"]
+
+    tab.to_blocks()
+    usual = letters_px()
+    nested: State | float = 1
+    for _ in range(4):
+        nested = block("arithmetic", {"OP": "ADD"}, A=nested, B=1)
+    tab.open_blocks(act(1, nested))
+    expect(tab.canvas).to_contain_text("turn")
+    assert right(tab.canvas) <= right(tab.page.locator("svg.blocklySvg"))
+    assert letters_px() < usual
+    tab.open_blocks(act(1, 1))
+    expect(tab.editor).to_contain_text("turn = 1")
+    assert letters_px() == usual
 
 
 @pytest.mark.nightly

@@ -124,7 +124,10 @@ def test_ranges_have_to_hold_together_and_in_a_row() -> None:
     assert not see(check, STILL, STILL, away, STILL, STILL)
     assert see(check, STILL)
     half = following("holds", ranges=ranges, decisions=4, share=0.5)
-    assert see(half, STILL, away, away, STILL)
+    assert not see(half, STILL, away)
+    assert half.words == "1 of 2 decisions"
+    assert see(half, STILL)
+    assert not see(following("holds", ranges=ranges, decisions=4, share=0.5), STILL, *[away] * 3)
 
 
 def test_starts_are_told_apart_by_their_seeds() -> None:

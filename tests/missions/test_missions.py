@@ -90,6 +90,13 @@ def test_its_solution_passes(name: str, seed: int) -> None:
     assert do.is_done, (do.run.index, do.run.words, do.run.hint)
 
 
+@pytest.mark.parametrize(("name", "seed"), [("think-2", 4)])
+def test_what_is_right_gets_no_hint(name: str, seed: int) -> None:
+    do = Doing(name, seed)
+    SOLUTIONS[name](do)
+    assert (do.is_done, do.run.hints) == (True, 0)
+
+
 @pytest.mark.parametrize("name", drawn(list(MISSIONS)))
 def test_wrong_ways_do_not_pass(name: str) -> None:
     still = Doing(name)

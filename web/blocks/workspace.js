@@ -14,8 +14,15 @@ import { Blockly } from "../vendor/blockly.js?v=e631db10";
 const FIRST_PLACE = { x: 16, y: 16 };
 /** No address, so that Blockly asks for none of its pictures and sounds; nothing that is used here needs one. */
 const NO_MEDIA = "data:,";
-/** Blocks are shown larger where a finger has to hit them. */
-const [SCALE, TOUCH_SCALE] = [0.9, 1];
+/** Blocks are shown larger where a finger has to hit them: scale at first, and the least of wide blocks. */
+const [SCALES, TOUCH_SCALES] = [
+  { first: 0.9, least: 0.6 },
+  { first: 1, least: 0.7 },
+];
+/** Few steps, so that blocks seldom change their size. */
+const SCALE_STEP = 0.1;
+/** Room to the right of the blocks, for the scroll bar (px). */
+const BAR_PX = 20;
 
 /** Blocks of a person who has none yet. */
 export const FIRST_BLOCKS = { blocks: { languageVersion: 0, blocks: [{ type: "on_decision", ...FIRST_PLACE, deletable: false }] } };
@@ -36,6 +43,9 @@ export class BlocksWorkspace {
    */
   #ran = [];
   #mistake = "";
+  #scales = matchMedia("(pointer: coarse)").matches ? TOUCH_SCALES : SCALES;
+  /** Scale that wide blocks were given; another one is the person's, and stays. */
+  #fitted = this.#scales.first;
 
   /**
    * @param {HTMLElement} parent element that gets the editor
@@ -50,7 +60,6 @@ export class BlocksWorkspace {
     /** @type {(question: string, start: string, answer: (text: string | null) => void) => Promise<void>} */
     const prompt = async (question, start, answer) => answer(await ask(question, start));
     Blockly.dialog.setPrompt(prompt);
-    const scale = matchMedia("(pointer: coarse)").matches ? TOUCH_SCALE : SCALE;
     this.#workspace = Blockly.inject(parent, {
       toolbox: toolbox(agent),
       theme: Blockly.Theme.defineTheme("ai4u", blocksTheme()),
@@ -62,7 +71,7 @@ export class BlocksWorkspace {
       collapse: false,
       maxInstances: { on_decision: 1, on_begin: 1 },
       move: { scrollbars: true, drag: true, wheel: true },
-      zoom: { startScale: scale, minScale: 0.5, maxScale: 2, pinch: true },
+      zoom: { startScale: this.#scales.first, minScale: 0.5, maxScale: 2, pinch: true },
     });
     // lists and fields hover over the page, outside of the panel
     /** @type {HTMLElement[]} */
@@ -78,7 +87,7 @@ export class BlocksWorkspace {
     this.#workspace.addChangeListener((/** @type {{isUiEvent: boolean}} */ event) => this.#onEvent(event));
     const svg = parent.querySelector(".blocklySvg");
     if (svg) setAttributes(svg, { role: "group", "aria-label": label }); // its own role says that it has no name
-    new ResizeObserver(() => parent.checkVisibility() && Blockly.svgResize(this.#workspace)).observe(parent);
+    new ResizeObserver(() => parent.checkVisibility() && this.resize()).observe(parent);
     keepFocus(parent);
     // the panel scrolls, which Blockly does not notice
     addEventListener("scroll", ({ target }) => target instanceof Node && target.contains(parent) && this.#workspace.updateInverseScreenCTM(), { capture: true });
@@ -109,6 +118,7 @@ export class BlocksWorkspace {
     this.#kept = JSON.stringify(this.blocks);
     this.#ran = [];
     this.#mistake = "";
+    this.#fit();
   }
 
   /**
@@ -159,6 +169,24 @@ export class BlocksWorkspace {
 
   resize() {
     Blockly.svgResize(this.#workspace);
+    this.#fit();
+  }
+
+  /** Show blocks that are too wide for the editor smaller, and others in the usual size. */
+  #fit() {
+    const { scale } = this.#workspace;
+    if (Math.abs(scale - this.#fitted) > 0.001) return;
+    if (Blockly.WidgetDiv.isVisible() || Blockly.DropDownDiv.isVisible()) return; // a new scale would close it
+    const { left, right } = this.#workspace.getBlocksBoundingBox();
+    const view = this.#workspace.getMetricsManager().getViewMetrics();
+    if (!view.width) return;
+    const widest = (view.width - BAR_PX) / (right - Math.min(left, 0));
+    const { first, least } = this.#scales;
+    const fitting = Math.floor(widest / SCALE_STEP + 1e-6) * SCALE_STEP;
+    this.#fitted = Math.max(least, Math.min(first, fitting));
+    if (Math.abs(scale - this.#fitted) < 0.001) return;
+    this.#workspace.setScale(this.#fitted);
+    this.#workspace.scroll(Math.max(0, -left * this.#fitted), this.#workspace.scrollY);
   }
 
   /**
@@ -184,6 +212,7 @@ export class BlocksWorkspace {
     const kept = JSON.stringify(this.blocks);
     if (kept === this.#kept || this.#workspace.isDragging()) return;
     this.#kept = kept;
+    this.#fit();
     this.onChange();
   }
 }
