@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import psutil
 import pytest
 
@@ -148,6 +149,24 @@ def test_a_paused_practice_goes_on(room: PanelRoom, page: PanelPage) -> None:
     assert part["practice"]["hint"] == ""
     assert room.editor.work_folder is not None
     assert not list((room.editor.work_folder / "practices").glob("*"))
+
+
+def test_a_saved_practice_of_an_earlier_form_keeps_its_best_network(
+    room: PanelRoom, page: PanelPage
+) -> None:
+    page.done("teach_practise", steps=LATE, weights=AWAY)
+    page.part("teach", lambda part: part["practice"] and part["practice"]["rewards"])
+    page.done("teach_pause")
+    page.part("teach", lambda part: part["practice"]["phase"] == "paused")
+    assert room.editor.work_folder is not None
+    (state,) = (room.editor.work_folder / "practices").glob("*/run/state.npz")
+    with np.load(state) as file:
+        arrays = {name: file[name] for name in file.files if name != "key_actions"}
+    np.savez(state, **arrays)
+    page.done("teach_go_on")
+    part = page.part("teach", lambda part: part["practice"]["phase"] == "over")
+    assert "expected a saved training of this agent" in part["practice"]["problem"]
+    page.part("teach", lambda part: len(part["networks"]) == 1)
 
 
 def test_a_practice_goes_on_in_its_scene_though_the_robot_is_gone(

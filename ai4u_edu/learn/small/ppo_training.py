@@ -249,9 +249,8 @@ class PpoTraining:
 
     def _restore(self, state: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:
         ppo = self.ppo
-        keys = arrays.get("key_actions")  # missing in files of earlier versions
-        if keys is not None and keys.size:  # it began with a clone that chooses among them
-            ppo.choose_among(keys)
+        if arrays["key_actions"].size:  # it began with a clone that chooses among them
+            ppo.choose_among(arrays["key_actions"])
         network, optimizer = ppo.network, ppo.optimizer
         network.parameters[:] = arrays["parameters"]
         network.middle[:], network.size[:] = arrays["middle"], arrays["size"]

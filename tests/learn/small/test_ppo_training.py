@@ -110,6 +110,17 @@ def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
             PpoTraining.resume(path, corridor())
 
 
+@pytest.mark.parametrize("name", ["key_actions", "best", "state"])
+def test_a_file_that_lacks_an_array_is_refused(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "state.npz"
+    PpoTraining(corridor(), FEW).save(path)
+    with np.load(path) as file:
+        arrays = {each: file[each] for each in file.files if each != name}
+    np.savez(path, **arrays)
+    with pytest.raises(SetupError, match=f"expected a saved training of this agent: .*{name}"):
+        PpoTraining.resume(path, corridor())
+
+
 def test_a_training_of_another_agent_is_refused(tmp_path: Path) -> None:
     PpoTraining(corridor(), FEW).save(tmp_path / "state.npz")
     with pytest.raises(SetupError, match="expected a saved training of this agent"):
