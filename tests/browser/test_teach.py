@@ -32,10 +32,22 @@ def test_a_robot_learns_from_the_chosen_drives_and_drives(
         page = tab.page
         drives = tab.get_by_role("group", name="Drives to learn from")
         expect(drives.get_by_role("checkbox", checked=True)).to_have_count(len(SEEDS))
+        more = tab.get_by_text("drive again")
+        expect(more).to_be_hidden()
+        for number in range(5, len(SEEDS) + 1):
+            drives.get_by_role("checkbox", name=re.compile(f"^Drive {number} ")).uncheck()
+        expect(more).to_contain_text("1 more drive makes it learn well.")
+        for number in range(5, len(SEEDS) + 1):
+            drives.get_by_role("checkbox", name=re.compile(f"^Drive {number} ")).check()
         drives.get_by_role("checkbox", name=re.compile("^Drive 1 ")).uncheck()
         tab.get_by_role("button", name=f"Learn from {len(SEEDS) - 1} drives").click()
         result = tab.get_by_role("status").filter(has_text="It acts like you in")
-        expect(result).to_contain_text("drives now")
+        expect(result).to_contain_text("It drives now.")
+        expect(result).to_be_in_viewport()
+        expect(page.get_by_text("It has learned from you, and drives by itself")).to_be_visible()
+        expect(tab.get_by_text("Does it go wrong somewhere?")).to_be_visible()
+        expect(tab.get_by_text("Its mistakes while it learns")).to_be_visible()
+        expect(tab.get_by_label("Begin with")).to_have_value("1")
         card = tab.get_by_role("article")
         expect(card).to_contain_text(f"learned from {len(SEEDS) - 1} drives")
         expect(card.get_by_text("drives", exact=True)).to_be_visible()

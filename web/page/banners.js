@@ -57,6 +57,8 @@ const COMMANDS = {
 const LOST = t("No connection to this world. The page reconnects by itself.");
 /** Time that the error of a failed request stays (ms). */
 const REQUEST_ERROR_MS = 8000;
+/** Time that news stay (ms). */
+const NEWS_MS = 8000;
 /** Terms smaller than this round to 0.00 and are left out of the details. */
 const MIN_TERM = 0.005;
 
@@ -87,6 +89,8 @@ export class Banners {
   #connectionError = "";
   #requestError = "";
   #timer = 0;
+  #news = "";
+  #newsTimer = 0;
   /**
    * Arguments of the last drawing; null before the first time.
    * @type {Parameters<Banners["draw"]> | null}
@@ -125,6 +129,20 @@ export class Banners {
   }
 
   /**
+   * Show for some seconds what a robot has just reached.
+   * @param {string} text
+   */
+  showNews(text) {
+    const show = (/** @type {string} */ news) => {
+      this.#news = news;
+      if (this.#lastDraw) this.draw(...this.#lastDraw);
+    };
+    clearTimeout(this.#newsTimer);
+    this.#newsTimer = setTimeout(() => show(""), NEWS_MS);
+    show(text);
+  }
+
+  /**
    * @param {StateEvent | null} state the server's last one; null while disconnected
    * @param {PageState} page
    */
@@ -153,6 +171,7 @@ export class Banners {
     if (this.#requestError) return { kind: "error", text: this.#requestError };
     if (page.held) return { kind: "paused", text: page.held };
     if (state?.past) return { kind: "paused", text: t("Past: {moment}", { moment: state.past }), buttons: ["back_to_live"] };
+    if (this.#news) return { kind: "goal", text: this.#news };
     if (state?.outcome) return outcomeBanner(state, page);
     if (state?.paused) return { kind: "paused", text: t("Paused"), details: page.thought, buttons: ["resume"] };
     if (page.thought) return { kind: "thought", text: page.thought };

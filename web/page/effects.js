@@ -45,11 +45,16 @@ export class Effects {
     if (isSame && state.said > before.said) this.#sounds.speak();
     if (state.outcome && !(isSame && before.outcome)) {
       if (WINS.includes(state.outcome)) {
-        this.#sounds.win();
-        showConfetti();
+        this.celebrate();
       } else if (state.outcome === "fell") this.#sounds.fall();
     } else if (isSame && state.collects > before.collects) this.#sounds.collect();
     else if (isSame && state.bumps > before.bumps && !state.outcome) this.#sounds.bump();
+  }
+
+  /** Show and sound that something was reached. */
+  celebrate() {
+    this.#sounds.win();
+    showConfetti();
   }
 
   /**

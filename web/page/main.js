@@ -284,5 +284,9 @@ if (HAS_PANEL) {
   const { startPanel } = await import("../panel/panel.js");
   panel = startPanel({ agent, take, letGo }, dock);
   for (const type of ["part:scene", "part:watch", "thought"]) panel.addEventListener(type, draw);
+  panel.addEventListener("celebrate", (event) => {
+    banners.showNews(/** @type {CustomEvent<string>} */ (event).detail);
+    effects.celebrate();
+  });
   draw();
 }

@@ -211,6 +211,14 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   }
 
   /**
+   * Celebrate over the picture what a robot has just reached.
+   * @param {string} text
+   */
+  celebrate(text) {
+    this.dispatchEvent(new CustomEvent("celebrate", { detail: text }));
+  }
+
+  /**
    * Return the latest part of a name, or null.
    * @template {keyof Parts} Name
    * @param {Name} name

@@ -25,7 +25,9 @@ const NOBODY = "";
 export class PracticeView {
   #panel;
   #steps = LENGTHS[0].value;
-  #beginWith = NEW;
+  /** Number of the network to begin with; null until the person chooses, then the one that drives. */
+  #beginWith = /** @type {string | null} */ (null);
+  #suggested = NEW;
   #weights = element("div", { role: "group", ariaLabel: t("Worth of each reward") });
   #length = choice(t("Length"), (value) => (this.#steps = value));
   #opponent = NOBODY;
@@ -38,7 +40,7 @@ export class PracticeView {
   #stop = button(t("Stop"), () => this.#panel.send("teach_stop_practising"), { icon: "stop" });
   #tools;
   #bar = element("progress", { max: 1, ariaLabel: t("Practice") });
-  #curve = new Curve(t("Mean reward of an episode at each check"));
+  #curve = new Curve(t("Mean reward of an episode at each check"), t("Its mean reward at each check: the higher, the better."));
   #text = element("p", { role: "status" });
   #left = element("p", { className: "ai4u-soft" });
   #hint = element("p", { className: "ai4u-hint-text", role: "status" });
@@ -64,8 +66,10 @@ export class PracticeView {
     );
     keyed(this.#weights, rewards, (name) => name, weightRow);
     const kept = networks.map(({ number, title }) => ({ value: String(number), text: title }));
-    if (!kept.some(({ value }) => value === this.#beginWith)) this.#beginWith = NEW;
-    this.#begin.set([{ value: NEW, text: t("A new network") }, ...kept], this.#beginWith);
+    const begins = [{ value: NEW, text: t("A new network") }, ...kept];
+    if (!begins.some(({ value }) => value === this.#beginWith)) this.#beginWith = null;
+    this.#suggested = String(networks.find((network) => network.is_driving)?.number ?? NEW);
+    this.#begin.set(begins, this.#beginWith ?? this.#suggested);
     const others = opponents.flatMap((kind) => (kind === "file" ? kept : [{ value: kind, text: OPPONENTS[kind] }]));
     // a keyboard's player rests, and practice against nobody is better than none
     if (!opponents.includes("player")) others.unshift({ value: NOBODY, text: t("Nobody") });
@@ -96,7 +100,8 @@ export class PracticeView {
   async #practise() {
     const weights = this.#chosenWeights();
     if (weights === null) return;
-    const beginWith = this.#beginWith === NEW ? null : Number(this.#beginWith);
+    const chosen = this.#beginWith ?? this.#suggested;
+    const beginWith = chosen === NEW ? null : Number(chosen);
     const opponent = /^\d+$/.test(this.#opponent) ? Number(this.#opponent) : null;
     const player = /** @type {PractiseForRewards["against"]} */ (this.#opponent || null);
     const against = opponent === null ? player : /** @type {const} */ ("file");

@@ -221,7 +221,7 @@ def clone_drives(
     _imitate(first, readings[seen], wanted[seen], updates, generator, measure)
     best = len(errors) - 1
     if not first.chooses:
-        best = min(range(len(errors)), key=lambda index: errors[index][1])
+        best = min(range(1, len(errors)), key=lambda index: errors[index][1])
     most_often, _count = Counter(map(tuple, kinds[seen].tolist())).most_common(1)[0]
 
     network = ActorCritic(observation_space, action_space, layers, key_actions)
@@ -348,6 +348,8 @@ def _imitate(
     network.size = scaled_spread.astype(np.float32)
     inputs = network.scaled(readings)
     optimizer = Adam(network.actor.parameters, RATE)
+    if measure is not None:
+        measure(0)  # else nobody sees how far the error falls in the first steps
     for update in range(1, updates + 1):
         batch = generator.integers(len(inputs), size=min(BATCH, len(inputs)))
         outputs = network.actor.forward(inputs[batch])

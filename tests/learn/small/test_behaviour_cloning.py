@@ -55,6 +55,7 @@ def test_numbers_are_learned_with_their_ranges() -> None:
     assert clone.commonest < 0.6
     assert clone.held_out == 60
     assert clone.remarks == ()
+    assert clone.errors[0][0] == 0  # before it has learned anything
     assert clone.errors[-1][0] == UPDATES
     assert clone.errors[-1][1] < clone.errors[0][1]
 

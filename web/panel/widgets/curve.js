@@ -9,13 +9,17 @@ export class Curve {
   #line = document.createElementNS(SVG, "polyline");
   element = element("figure", { className: "ai4u-curve", hidden: true });
 
-  /** @param {string} name for screen readers */
-  constructor(name) {
+  /**
+   * @param {string} name for screen readers
+   * @param {string} caption below the line; empty for none
+   */
+  constructor(name, caption = "") {
     const picture = document.createElementNS(SVG, "svg");
     const viewBox = `0 0 ${WIDTH} ${HEIGHT}`;
     setAttributes(picture, { viewBox, role: "img", "aria-label": name, preserveAspectRatio: "none" });
     picture.append(this.#line);
     this.element.append(picture);
+    if (caption) this.element.append(element("figcaption", { className: "ai4u-soft", textContent: caption }));
   }
 
   /** @param {number[]} values oldest first; fewer than two draw nothing */
