@@ -92,7 +92,8 @@ def _measure(
     late = [
         value
         for file in folder.glob("*.json")
-        for value in json.loads(file.read_text())[-int(60 * took) :]
+        for tick_began, value, _delay in json.loads(file.read_text())
+        if began <= tick_began < began + took
     ]
     if late:
         print("ticks late (ms): p50 {:.1f}, p99 {:.1f}".format(*_ms(late)))

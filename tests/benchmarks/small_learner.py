@@ -9,7 +9,9 @@ seeds differ by a factor of three. Stable-Baselines3 has the project's settings 
 small learner its own ones, in the same rhythm and with the same limit of steps.
 
 Seconds are those of processor and of the clock, without set-up: imports, making worlds and models.
-The checks count, as they are part of both. Arguments: ``--seeds N``, ``--decisions N``, scenes.
+The checks count, as they are part of both. The learners take turns, and so do scenes: no pair of
+trainings is begun after ``--minutes``, so that the table has fewer seeds then. Ten seeds of
+box_chase and sample_scene take about 5 minutes on an idle core, push_block up to 40 more.
 """
 
 import argparse
@@ -102,23 +104,41 @@ LEARNERS: dict[str, Callable[[str, int, int], Time]] = {
 
 def main() -> None:
     """Run all trainings in turn, and print a table."""
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("scenes", nargs="*", default=list(SCENES))
     parser.add_argument("--seeds", type=int, default=10)
-    parser.add_argument("--decisions", type=int, default=300_000)
+    parser.add_argument("--decisions", type=int, default=300_000, help="of a training, at most")
+    parser.add_argument("--minutes", type=float, default=60.0)
     chosen = parser.parse_args()
+    end = time.monotonic() + 60 * chosen.minutes
+    times: dict[str, dict[str, list[Time]]] = {
+        scene: {name: [] for name in LEARNERS} for scene in chosen.scenes
+    }
+    for seed in range(chosen.seeds):
+        for scene in chosen.scenes:
+            if time.monotonic() > end:
+                continue
+            # the one that is first is the other one next time
+            for name in list(LEARNERS)[:: 1 if seed % 2 else -1]:
+                result = LEARNERS[name](scene, seed, chosen.decisions)
+                print(scene, name, seed, *result, flush=True)
+                times[scene][name].append(result)
+    print(f"load average {os.getloadavg()[0]:.1f}, {os.cpu_count()} cores")
+    print("\n".join(table(times)))
+
+
+def table(times: dict[str, dict[str, list[Time]]]) -> list[str]:
+    """Return the lines of a table of medians."""
     lines = [
         "| scene | learner | all starts reached | decisions, median | seconds, median | CPU s |",
         "|---|---|---|---|---|---|",
     ]
-    for scene in chosen.scenes:
-        times: dict[str, list[Time]] = {name: [] for name in LEARNERS}
-        for seed in range(chosen.seeds):
-            for name, learn in LEARNERS.items():
-                result = learn(scene, seed, chosen.decisions)
-                print(scene, name, seed, *result, flush=True)
-                times[name].append(result)
-        for name, results in times.items():
+    for scene, of_scene in times.items():
+        for name, results in of_scene.items():
+            if not results:
+                continue
             decisions, seconds, processor = (
                 statistics.median(numbers)
                 for numbers in (
@@ -132,7 +152,7 @@ def main() -> None:
                 f"| {scene} | {name} | {reached} of {len(results)} | {decisions:,.0f} "
                 f"| {seconds:.1f} | {processor:.1f} |"
             )
-    print("\n".join(lines))
+    return lines
 
 
 if __name__ == "__main__":

@@ -31,13 +31,22 @@ class NoReading(Sensor):
         return np.zeros(1)
 
 
-_late_s: list[float] = []
+_ticks: list[tuple[float, float, float]] = []
+"""When each tick began (s), how late that was (s), and its delay (s).
+
+The delay is the time since the tick before, beyond the period; waiting for a script counts.
+"""
+_last = {"began": 0.0}
 _tick = Runner._tick
 
 
 def _timed_tick(self: Runner, *, whole_decision: bool = False) -> None:
-    _late_s.append(self._clock() - self._schedule.due)
+    began, due = self._clock(), self._schedule.due
     _tick(self, whole_decision=whole_decision)
+    if not self.sim.waiting_for_brain:  # else the tick has not taken place
+        delay = max(0.0, began - _last["began"] - self._period)
+        _ticks.append((time.monotonic(), began - due, delay))
+        _last["began"] = began
 
 
 def _write(folder: Path) -> None:
@@ -45,7 +54,7 @@ def _write(folder: Path) -> None:
         time.sleep(POLL_S)
     path = folder / f"{os.getpid()}.json"
     beside = path.with_suffix(".partial")
-    beside.write_text(json.dumps(list(_late_s)))
+    beside.write_text(json.dumps(list(_ticks)))
     beside.replace(path)
 
 
