@@ -33,7 +33,7 @@ from ai4u_edu.recording import Episode
 from ai4u_edu.teach.drives import FOLDER as DRIVES
 from ai4u_edu.teach.drives import DriveFolder
 from tests.benchmarks import tick_lateness
-from tests.benchmarks.practice_lateness import listening
+from tests.benchmarks.practice_lateness import AS_SERVED, listening
 from tests.classroom.served_class import CODE, served_class
 from tests.load.clients import CAMERA, page_socket, panel_socket, read_all
 from tests.teach.driving import SEEDS, drive
@@ -49,7 +49,7 @@ SHORT = 8192
 
 
 class Ready(NamedTuple):
-    """When something was ready."""
+    """Times of a command and of its result."""
 
     began: float
     """Time (s) of the command."""
@@ -75,8 +75,8 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         os.environ["AI4U_LATENESS_FOLDER"] = str(folder)
-        blocks = ["--blocks", str(tick_lateness.__file__)]
-        with served_class(folder / "class", "box_chase", *blocks) as served:
+        shown = ("box_chase", "--blocks", str(tick_lateness.__file__))
+        with served_class(folder / "class", *shown, replaced=AS_SERVED) as served:
             here, there = multiprocessing.Pipe()
             limit_s = 60 * options.minutes
             args = (served.url, folder / "class", options.rooms, options.practices, limit_s, there)

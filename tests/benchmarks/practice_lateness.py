@@ -31,6 +31,7 @@ from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.remote import RemoteError
 from ai4u_edu.remote import connect as connect_script
+from ai4u_edu.teach.background import NICENESS
 from tests.benchmarks import tick_lateness
 from tests.classroom.served_class import Student, served_class
 from tests.classroom.student_page import script_address
@@ -42,6 +43,8 @@ DECISIONS = 1_000_000
 """Decisions of the practice, so that it never ends by itself: about four minutes of a core."""
 AWAY = {"touch": -1.0}
 """Factors with which it never reaches the goal, and so does not end early."""
+AS_SERVED = {"ai4u_edu.teach.background.NICENESS": NICENESS}
+"""Constants of a class that tests replace, as they are for users."""
 SETTLING_S = 0.5
 """Time after each change that is not counted."""
 
@@ -74,11 +77,14 @@ def main() -> None:
 
 def measure(
     folder: Path, rooms: int, pairs: int, seconds: float
-) -> tuple[list[dict[bool, Turn]], list[Sequence[tuple[float, float]]]]:
+) -> tuple[list[dict[bool, Turn]], list[list[tuple[float, float]]]]:
     """Return the turns by whether it practised, and each room's ticks: their time and delay (s)."""
     os.environ["AI4U_LATENESS_FOLDER"] = str(folder)
-    blocks = ["--blocks", str(tick_lateness.__file__)]
-    with served_class(folder / "class", "box_chase", *blocks) as served, ExitStack() as stack:
+    options = ("box_chase", "--blocks", str(tick_lateness.__file__))
+    with (
+        served_class(folder / "class", *options, replaced=AS_SERVED) as served,
+        ExitStack() as stack,
+    ):
         gateway = psutil.Process(served.process.pid)
         students = [served.joined()]
         pages = [stack.enter_context(panel_of(students[0]))]

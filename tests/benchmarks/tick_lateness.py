@@ -32,7 +32,7 @@ class NoReading(Sensor):
 
 
 _ticks: list[tuple[float, float, float]] = []
-"""When each tick began (s), how late that was (s), and its delay (s).
+"""Begin (s), lateness (s) and delay (s) of each tick.
 
 The delay is the time since the tick before, beyond the period; waiting for a script counts.
 """

@@ -82,7 +82,7 @@ def replace(module: str, name: str, number: float) -> None:
         return
     loaded = import_module(module)
     assert hasattr(loaded, name), f"{module} has no {name}"
-    setattr(loaded, name, number)
+    setattr(loaded, name, type(getattr(loaded, name))(number))  # a whole number stays one
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ export class Tab {
   #sections;
   /** @type {TeachPart | null} */
   #part = null;
-  /** What was under way in the part before. */
+  /** Work that was under way in the part before. */
   #was = { learning: false, practising: false };
 
   /**
