@@ -8,30 +8,29 @@ same events give the same result, whoever drives and wherever the world runs.
 import math
 from collections import deque
 from collections.abc import Generator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field, StringConstraints, field_validator, model_validator
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor
-from ai4u_edu.agent.driving_keys import active_brain, has_driving_keys
 from ai4u_edu.base.errors import SetupError, suggest
-from ai4u_edu.blocks import Block, LinearRayCastingSensor, NeuralNetController, RemoteBrain
-from ai4u_edu.blocks.sensors.ray_sensor import spread
+from ai4u_edu.blocks import Block
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import library_text
+from ai4u_edu.missions.events import (
+    Decision,
+    Event,
+    PersonAnswer,
+    SeenPage,
+    Verdict,
+    distances_of,
+)
 from ai4u_edu.scenes import SceneDescription
-from ai4u_edu.snapshot import has_fallen
 from ai4u_edu.world.shapes import Description
 
-Driver = Literal["keys", "program", "network", "controller"]
-"""Kinds of drivers; blocks are a program, and a controller is one that comes with the package."""
 Tab = Literal["drive", "build", "world", "code", "past", "teach"]
 """Tabs of the panel by their names in the page."""
-AHEAD_DEG = 20.0
-"""Angle (degrees) up to which a ray looks ahead, as in the blocks of programs."""
 MAX_TIMES = 1000
 MINUS = "\N{MINUS SIGN}"
 """The page writes numbers below 0 with it."""
@@ -40,146 +39,6 @@ Times = Annotated[int, Field(ge=1, le=MAX_TIMES)]
 Text = Annotated[str, StringConstraints(min_length=1, max_length=MAX_TEXT_CHARS)]
 Follow = Generator[str, Any, None]
 """Yields how far a check is; receives events of the type that it listens to."""
-
-
-# -- events ----------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Decision:
-    """One decision of an agent, when its percept and reward are final."""
-
-    driver: Driver
-    episode: int
-    """Number of the agent's episode."""
-    step: int
-    """Number of the decision in it, from 1; 0 for the moment before the first one."""
-    seed: int
-    seconds: float
-    """Time (s) in the world since its reset."""
-    x: float
-    """Place of the body (m)."""
-    y: float
-    heading: float
-    """Heading (rad), counter-clockwise."""
-    speed: float
-    """Speed (m/s), above 0 forward."""
-    turning: float
-    """Turning speed (degrees/s), above 0 to the left."""
-    terms: Mapping[str, float]
-    """Reward of the decision, by term."""
-    outcome: Literal["", "goal", "fell", "time", "over"]
-    """End of the episode; empty before it."""
-    percept: Mapping[str, Any] = field(repr=False)
-    distances: Mapping[str, float] = field(repr=False)
-    """Distance (m) to what is nearest, by the side: around, ahead, left, right; empty without a
-    flat fan of rays that read distances."""
-    network: str = ""
-    """File of the network that drives; empty for another driver."""
-
-    def value_of(self, what: str) -> float:
-        """Return a quantity, such as ``speed``, ``distance ahead`` or a number of a sensor."""
-        if what in ("speed", "turning"):
-            return self.speed if what == "speed" else self.turning
-        if what.startswith("distance "):
-            return self.distances[what.removeprefix("distance ")]
-        key, _, part = what.rstrip("]").partition("[")
-        return float(np.asarray(self.percept[key]).reshape(-1)[int(part or 0)])
-
-
-@dataclass(frozen=True)
-class SeenPage:
-    """The tab that a person has open in the page."""
-
-    tab: str
-
-
-@dataclass(frozen=True)
-class PersonAnswer:
-    """An answer that a person has typed or chosen, and the decision before it."""
-
-    text: str
-    decision: Decision | None
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """The opinion of an exercise's judge on a person's work."""
-
-    passed: bool
-    text: str
-
-
-Event = Decision | SeenPage | PersonAnswer | Verdict | SceneDescription
-
-
-def decision_of(sim: ControlRequestor, agent: BasicAgent) -> Decision:
-    """Return an agent's latest decision, for checks; call it in its event ``percept_ready``."""
-    body, percept = agent.body, agent.percept
-    (x, y), (vx, vy) = body.position, body.velocity
-    outcome: Literal["", "goal", "fell", "time", "over"] = ""
-    if agent.done:
-        has_succeeded = agent.ledger.episode_terms.get(sim.success, 0.0) > 0
-        outcome = "fell" if has_fallen(agent) else "time" if agent.truncated else "over"
-        outcome = "goal" if has_succeeded else outcome
-    return Decision(
-        driver=driver_of(agent),
-        episode=agent.episode,
-        step=agent.steps,
-        seed=sim.world.seeds.seed,
-        seconds=sim.world.time,
-        x=x,
-        y=y,
-        heading=body.heading,
-        speed=vx * math.cos(body.heading) + vy * math.sin(body.heading),
-        turning=math.degrees(body.angular_velocity),
-        terms=dict(agent.ledger.terms) if agent.steps else {},
-        outcome=outcome,
-        percept=percept,
-        distances=_distances(agent),
-        network=getattr(getattr(active_brain(agent.brain), "controller", None), "model_path", ""),
-    )
-
-
-def driver_of(agent: BasicAgent) -> Driver:
-    """Return the kind of driver that decides for an agent now."""
-    if has_driving_keys(agent):
-        return "keys"
-    brain = active_brain(agent.brain)
-    if isinstance(brain, RemoteBrain):
-        return "program"
-    controller = getattr(brain, "controller", None)
-    return "network" if isinstance(controller, NeuralNetController) else "controller"
-
-
-def _distances(agent: BasicAgent) -> dict[str, float]:
-    """Return the nearest distance (m) of each side, by the agent's first flat fan of rays."""
-    sensor = ray_sensor_of(agent)
-    if sensor is None:
-        return {}
-    width = 1 + sensor.return_code
-    numbers = np.asarray(agent.percept[sensor.perception_key]).reshape(-1, width)[:, -1]
-    metres = np.where(numbers == 0, 1.0, numbers / sensor.farthest) * sensor.vision_max_distance
-    angles = np.degrees(spread(sensor.number_of_rays, sensor.field_of_view))
-    angles = angles - sensor.horizontal_shift
-    sides = {
-        "around": np.full(len(angles), fill_value=True),
-        "ahead": np.abs(angles) <= AHEAD_DEG,
-        "left": angles > AHEAD_DEG,
-        "right": angles < -AHEAD_DEG,
-    }
-    return {side: float(metres[rays].min()) for side, rays in sides.items() if rays.any()}
-
-
-def ray_sensor_of(agent: BasicAgent) -> LinearRayCastingSensor | None:
-    """Return the sensor by which a check knows distances; None if the agent has none."""
-    for sensor in agent.sensors:
-        if isinstance(sensor, LinearRayCastingSensor) and sensor.stacked_observations == 1:
-            return sensor if sensor.return_distance else None
-    return None
-
-
-# -- checks ----------------------------------------------------------------------------------------
 
 
 class Check(Description):
@@ -220,7 +79,7 @@ class Drives(Check):
         """Add the distances between decisions of an episode, along the heading."""
         driven, before = 0.0, None
         while driven < self.metres:
-            now: Decision = yield f"{driven:.1f} of {self.metres:g} m"
+            now: Decision = yield _("{done:.1f} of {metres:g} m", done=driven, metres=self.metres)
             if before is not None and before.episode == now.episode:
                 dx, dy = now.x - before.x, now.y - before.y
                 along = dx * math.cos(before.heading) + dy * math.sin(before.heading)
@@ -241,7 +100,9 @@ class Turns(Check):
         """Add the changes of the heading between decisions of an episode."""
         turned, before, best = 0.0, None, 0.0
         while best < self.degrees:
-            now: Decision = yield f"{best:.0f} of {self.degrees:g} degrees"
+            now: Decision = yield _(
+                "{done:.0f} of {degrees:g} degrees", done=best, degrees=self.degrees
+            )
             if before is not None and before.episode == now.episode:
                 turned += math.degrees(math.remainder(now.heading - before.heading, 2 * math.pi))
                 ways = {"left": turned, "right": -turned, "any": abs(turned)}
@@ -273,7 +134,7 @@ class ReachesGoal(Check):
         """Count the ends of episodes whose first decision was seen."""
         ends: deque[tuple[int, bool]] = deque(maxlen=self.of)
         begun = None
-        while sum(is_goal for _, is_goal in ends) < self.times:
+        while sum(is_goal for _seed, is_goal in ends) < self.times:
             now: Decision = yield self._words(ends)
             if now.step <= 1:
                 begun = now.episode
@@ -292,10 +153,16 @@ class ReachesGoal(Check):
         return is_in_time and (self.decisions is None or end.step <= self.decisions)
 
     def _words(self, ends: "deque[tuple[int, bool]]") -> str:
-        goals = sum(is_goal for _, is_goal in ends)
-        if self.of is not None:
-            return f"goal from {goals} of the last {len(ends)} starts; {self.times} are needed"
-        return f"{goals} of {self.times} times" if self.times > 1 else ""
+        goals = sum(is_goal for _seed, is_goal in ends)
+        if self.of is None:
+            return _counted(goals, self.times)
+        return _(
+            "{goals} of {starts} starts reached the goal; {times} of {of} are needed",
+            goals=goals,
+            starts=len(ends),
+            times=self.times,
+            of=self.of,
+        )
 
 
 class IsPaid(Check):
@@ -310,7 +177,7 @@ class IsPaid(Check):
         """Count the decisions that pay more than 0."""
         count, episode = 0, None
         while count < self.times:
-            now: Decision = yield f"{count} of {self.times}" if self.times > 1 else ""
+            now: Decision = yield _counted(count, self.times)
             if now.episode != episode:
                 count, episode = 0, now.episode
             paid = now.terms.values() if not self.reward else [now.terms.get(self.reward, 0.0)]
@@ -367,8 +234,7 @@ class Holds(Check):
         needed = math.ceil(self.share * self.decisions)
         episode = None
         while sum(latest) < needed:
-            count = f"{sum(latest)} of {needed} decisions"
-            now: Decision = yield f"{self.word}: {count}" if self.word else count
+            now: Decision = yield self._words(sum(latest), needed)
             if now.episode != episode:
                 latest.clear()
                 episode = now.episode
@@ -377,6 +243,13 @@ class Holds(Check):
                 latest.clear()
             else:
                 latest.append(has_all)
+
+    def _words(self, count: int, decisions: int) -> str:
+        numbers = {"count": count, "decisions": decisions}
+        if not self.word:
+            return _("{count} of {decisions} decisions", **numbers)
+        word = library_text(self.word)
+        return _("{word}: {count} of {decisions} decisions", word=word, **numbers)
 
     def quantities(self) -> Sequence[str]:
         """Return those of the ranges."""
@@ -396,7 +269,7 @@ class Starts(Check):
         """Count first moments of episodes, by their seeds."""
         count, before = 0, None
         while count < self.times:
-            now: Decision = yield f"{count} of {self.times}" if self.times > 1 else ""
+            now: Decision = yield _counted(count, self.times)
             if before is not None and now.episode != before.episode:
                 is_same = now.seed == before.seed
                 count += self.place == "any" or is_same == (self.place == "same")
@@ -414,7 +287,7 @@ class Ends(Check):
         """Count the ends of episodes."""
         count, episode = 0, None
         while count < self.times:
-            now: Decision = yield f"{count} of {self.times}" if self.times > 1 else ""
+            now: Decision = yield _counted(count, self.times)
             is_new = now.episode != episode
             if now.outcome and is_new:
                 episode = now.episode
@@ -431,7 +304,9 @@ class Decides(Check):
         """Count decisions."""
         count = 0
         while count < self.decisions:
-            now: Decision = yield f"{count} of {self.decisions} decisions"
+            now: Decision = yield _(
+                "{count} of {decisions} decisions", count=count, decisions=self.decisions
+            )
             count += now.step > 0
 
 
@@ -461,25 +336,26 @@ class Reads(Check):
 
     def follow(self) -> Follow:
         """Compare answers with the quantity."""
-        words = ""
+        words: str = ""
         while True:
             answer: PersonAnswer = yield words
             if answer.decision is None:
-                words = "Drive a little first."
+                words = _("Drive a little first.")
                 continue
             try:
                 number = float(answer.text.strip().replace(MINUS, "-").replace(",", "."))
             except ValueError:
-                words = f"Type a number, such as 0.5, not “{answer.text[:20]}”."
+                text = answer.text[:20]
+                words = _("Type a number, such as 0.5, not “{text}”.", text=text)
                 continue
             try:
                 value = answer.decision.value_of(self.what)
             except (KeyError, IndexError):
-                words = f"The robot senses no {self.what} yet."
+                words = _("The robot senses no {what} yet.", what=self.what)
                 continue
             if abs(number - value) <= self.within:
                 return
-            words = f"Not {number:g}. Look at the number again."
+            words = _("Not {number:g}. Look at the number again.", number=number)
 
     def quantities(self) -> Sequence[str]:
         """Return the quantity."""
@@ -561,7 +437,7 @@ class Builds(Check):
         """Count in each state of the scene."""
         found = 0
         while found < self.count:
-            scene: SceneDescription = yield f"{found} of {self.count}" if self.count > 1 else ""
+            scene: SceneDescription = yield _counted(found, self.count)
             found = self._count(scene)
 
     def _count(self, scene: SceneDescription) -> int:
@@ -574,6 +450,11 @@ class Builds(Check):
             and all(_value_in(block, name) == value for name, value in self.values.items())
             for block in blocks
         )
+
+
+def _counted(count: int, times: int) -> str:
+    """Return how often something has happened, if it has to happen more than once."""
+    return _("{count} of {times}", count=count, times=times) if times > 1 else ""
 
 
 def _value_in(block: Mapping[str, Any], name: str) -> Any:
@@ -639,7 +520,7 @@ class Following:
 def _find(what: str, agent: BasicAgent) -> None:
     """Check that an agent has a quantity."""
     key, bracket, part = what.rstrip("]").partition("[")
-    distances = _distances(agent)
+    distances = distances_of(agent)
     known = ["speed", "turning", *(f"distance {side}" for side in distances), *agent.percept]
     if key not in known or (bracket and not part.isdigit()):
         raise SetupError(f"the robot senses no {what!r}; {suggest(what, known)}")

@@ -19,7 +19,8 @@ from pydantic import (
 
 from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest
 from ai4u_edu.base.parameters import ParameterProblem, explain
-from ai4u_edu.missions.checks import AnyCheck, Chooses, Driver, Reads, Solves, Text
+from ai4u_edu.missions.checks import AnyCheck, Chooses, Holds, Reads, Solves, Text
+from ai4u_edu.missions.events import Driver
 from ai4u_edu.page.editing.scene_pictures import template_names
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.yaml.file import YamlFile
@@ -119,6 +120,9 @@ class Mission(Description):
             yield self.idea
         for step in self.steps:
             yield from (step.say, step.done, *(hint.say for hint in step.hints))
+            for check in (step.check, *(hint.when for hint in step.hints)):
+                if isinstance(check, Holds) and check.word:
+                    yield check.word
             if isinstance(step.check, Chooses | Reads):
                 yield step.check.question
             if isinstance(step.check, Chooses):

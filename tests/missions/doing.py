@@ -18,9 +18,9 @@ from ai4u_edu.blocks import (
 )
 from ai4u_edu.lessons.built import judge_built
 from ai4u_edu.lessons.calls import Judged, RemoteCalls, function_name
-from ai4u_edu.missions.checks import Driver, SeenPage, Verdict, decision_of
+from ai4u_edu.missions.events import Driver, SeenPage, Verdict, decision_of
 from ai4u_edu.missions.mission import library_missions
-from ai4u_edu.missions.option import MissionRun
+from ai4u_edu.missions.run import MissionRun
 from ai4u_edu.page.editing.scene_pictures import load_by_name
 from ai4u_edu.program import ProgramError, host
 from ai4u_edu.scenes import Scene

@@ -10,7 +10,8 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks import LinearRayCastingSensor
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.missions.checks import Solves, Starts, decision_of
+from ai4u_edu.missions.checks import Solves, Starts
+from ai4u_edu.missions.events import decision_of
 from ai4u_edu.world import BodyDescription
 from tests.missions.doing import Action, Doing, Policy
 from tests.scenes.solvers import solver_of

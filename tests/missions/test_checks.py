@@ -12,16 +12,9 @@ from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.blocks import LocalBrain
-from ai4u_edu.missions.checks import (
-    AnyCheck,
-    Check,
-    Decision,
-    Event,
-    Following,
-    PersonAnswer,
-    SeenPage,
-    decision_of,
-)
+from ai4u_edu.locale import Text
+from ai4u_edu.missions.checks import AnyCheck, Check, Following
+from ai4u_edu.missions.events import Decision, Event, PersonAnswer, SeenPage, decision_of
 
 CHECK: TypeAdapter[Check] = TypeAdapter(AnyCheck)
 STILL = Decision(
@@ -73,6 +66,39 @@ def test_a_new_start_is_no_way() -> None:
     assert not see(check, *moved(0), *moved(50, episode=2), *moved(0, episode=3))
 
 
+KINDS: list[dict[str, Any]] = [
+    {"type": "drives", "metres": 2},
+    {"type": "turns", "degrees": 90},
+    {"type": "reaches_goal", "times": 2},
+    {"type": "reaches_goal", "times": 2, "of": 3},
+    {"type": "is_paid", "times": 2},
+    {"type": "holds", "ranges": [{"what": "speed", "above": 1}]},
+    {"type": "holds", "ranges": [{"what": "speed", "above": 1}], "word": "fast"},
+    {"type": "starts", "times": 2},
+    {"type": "ends", "times": 2},
+    {"type": "decides", "decisions": 9},
+    {"type": "builds", "tag": "wall", "count": 2},
+]
+
+
+@pytest.mark.parametrize("check", KINDS, ids=str)
+def test_how_far_it_is_can_be_translated(check: dict[str, Any]) -> None:
+    told = following(**check)
+    see(told, STILL)
+    assert isinstance(told.words, Text)
+
+
+@pytest.mark.parametrize("answer", ["", "5"])
+@pytest.mark.parametrize("what", ["level", "unknown"])
+@pytest.mark.parametrize("before", [None, STILL])
+def test_what_is_wrong_with_a_number_can_be_translated(
+    answer: str, what: str, before: Decision | None
+) -> None:
+    told = following("reads", question="?", what=what, within=0.1)
+    see(told, PersonAnswer(answer, before))
+    assert isinstance(told.words, Text)
+
+
 def test_turns_takes_off_what_is_turned_back() -> None:
     headings = (0.0, 1.0, 0.5, 1.4)
     check = following("turns", degrees=75, way="left")
@@ -105,7 +131,7 @@ def test_goals_are_counted_among_different_starts() -> None:
     check = following("reaches_goal", times=2, of=3)
     assert not see(check, *episode(1, "goal"), *episode(101, "goal"), *episode(201, "goal"))
     assert not see(check, *episode(2, "fell"), *episode(3, "fell"), *episode(4, "goal"))
-    assert check.words == "goal from 1 of the last 3 starts; 2 are needed"
+    assert check.words == "1 of 3 starts reached the goal; 2 of 3 are needed"
     assert see(check, *episode(5, "goal"))
 
 

@@ -5,9 +5,11 @@ from dataclasses import replace
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.missions.checks import Event, SeenPage
+from ai4u_edu.locale import Text
+from ai4u_edu.missions.events import Event, SeenPage
 from ai4u_edu.missions.mission import library_missions, read_mission
-from ai4u_edu.missions.option import HINT_DECISIONS, MissionRun, mission_part
+from ai4u_edu.missions.option import mission_part
+from ai4u_edu.missions.run import HINT_DECISIONS, MissionRun
 from tests.missions.test_checks import STILL, moved
 
 TEXT = """\
@@ -99,6 +101,7 @@ def test_another_driver_does_not_count_and_is_told(run: MissionRun) -> None:
         "A program is driving. This step is for *you*: let go of the program, or choose keys "
         "again, and drive."
     )
+    assert isinstance(run.driver, Text)  # so it is told in the reader's language
     run.see(STILL)
     assert run.driver == ""
 
