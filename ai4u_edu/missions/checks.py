@@ -32,6 +32,8 @@ from ai4u_edu.world.shapes import Description
 Tab = Literal["drive", "build", "world", "code", "past", "teach"]
 """Tabs of the panel by their names in the page."""
 MAX_TIMES = 1000
+TIME_TOLERANCE_S = 1e-6
+"""Times are sums of ticks, which are no round numbers."""
 MINUS = "\N{MINUS SIGN}"
 """The page writes numbers below 0 with it."""
 MAX_TEXT_CHARS = 400
@@ -86,6 +88,56 @@ class Drives(Check):
                 ways = {"forward": along, "backward": -along, "any": abs(along)}
                 driven += max(0.0, ways[self.way])
             before = now
+
+
+class Covers(Check):
+    """The robot drives for some seconds of an episode, and covers some metres on a wide enough way.
+
+    The time begins with the first decision of the driver who is asked for. Whoever has covered too
+    little at its end has to begin again, with another episode or after a break.
+    """
+
+    begins_with_latest = True
+    type: Literal["covers"] = "covers"
+    metres: Annotated[float, Field(gt=0, le=1000)]
+    seconds: Annotated[float, Field(gt=0, le=3600)]
+    width: Annotated[float, Field(ge=0, le=1000)] = 0.0
+    """Distance (m) between the farthest two places of the way, at least."""
+
+    def follow(self) -> Follow:
+        """Add the distances between decisions in a row."""
+        words: str = ""
+        way: list[tuple[float, float]] = []
+        covered, began, is_over, before = 0.0, 0.0, False, None
+        while True:
+            now: Decision = yield words
+            if before is None or (now.episode, now.step) != (before.episode, before.step + 1):
+                way, covered, began, is_over = [(now.x, now.y)], 0.0, now.seconds, False
+            before = now
+            if is_over:
+                continue
+            covered += math.dist(way[-1], (now.x, now.y))
+            way.append((now.x, now.y))
+            left = self.seconds - (now.seconds - began)
+            words = _(
+                "{done:.1f} of {metres:g} m; {left:.0f} s are left",
+                done=covered,
+                metres=self.metres,
+                left=max(left, 0.0),
+            )
+            if left > TIME_TOLERANCE_S or now.outcome == "fell":
+                continue
+            is_over, widest = True, _width(way)
+            if covered >= self.metres and widest >= self.width:
+                return
+            words = _(
+                "{done:.1f} m, on a way {widest:.1f} m wide: {metres:g} m are needed, and "
+                "{width:g} m wide. Press New start.",
+                done=covered,
+                widest=widest,
+                metres=self.metres,
+                width=self.width,
+            )
 
 
 class Turns(Check):
@@ -452,6 +504,12 @@ class Builds(Check):
         )
 
 
+def _width(way: Sequence[tuple[float, float]]) -> float:
+    """Return the distance (m) of the farthest two places of a way."""
+    places = [*way[::6], way[-1]]  # twice a second is often enough, and much quicker than all
+    return max(math.dist(one, other) for one in places for other in places)
+
+
 def _counted(count: int, times: int) -> str:
     """Return how often something has happened, if it has to happen more than once."""
     return _("{count} of {times}", count=count, times=times) if times > 1 else ""
@@ -467,6 +525,7 @@ def _value_in(block: Mapping[str, Any], name: str) -> Any:
 
 AnyCheck = Annotated[
     Drives
+    | Covers
     | Turns
     | ReachesGoal
     | IsPaid

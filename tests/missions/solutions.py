@@ -556,8 +556,8 @@ def by_code(code: str) -> Policy:
         if state["episode"] != agent.episode:
             decide = made().get_action if isinstance(made, type) else made
             state.update(episode=agent.episode, decide=decide)
-        action: Action = state["decide"](agent.percept)
-        return action
+        action: Action | None = state["decide"](agent.percept)
+        return action or STOP  # a page would stop a program that returns nothing
 
     return policy
 
@@ -779,6 +779,7 @@ SOLUTIONS: dict[str, Solution] = {
     "code-25": program,
     "code-26": program,
     "code-27": program,
+    "code-28": program,
     "build-1": build_1,
     "build-2": build_2,
     "build-3": build_3,

@@ -68,6 +68,7 @@ def test_a_new_start_is_no_way() -> None:
 
 KINDS: list[dict[str, Any]] = [
     {"type": "drives", "metres": 2},
+    {"type": "covers", "metres": 2, "seconds": 3},
     {"type": "turns", "degrees": 90},
     {"type": "reaches_goal", "times": 2},
     {"type": "reaches_goal", "times": 2, "of": 3},
@@ -97,6 +98,31 @@ def test_what_is_wrong_with_a_number_can_be_translated(
     told = following("reads", question="?", what=what, within=0.1)
     see(told, PersonAnswer(answer, before))
     assert isinstance(told.words, Text)
+
+
+def test_covers_looks_at_a_way_when_the_time_is_over() -> None:
+    parameters = {"metres": 6, "seconds": 3, "width": 3}
+
+    def way(*places: tuple[float, float], **changes: Any) -> list[Decision]:
+        return [
+            replace(STILL, x=x, y=y, step=step, seconds=float(step), **changes)
+            for step, (x, y) in enumerate(places)
+        ]
+
+    far = way((0, 0), (2, 0), (4, 0), (4, 2))
+    check = following("covers", **parameters)
+    assert not see(check, *far[:-1])
+    assert check.words == "4.0 of 6 m; 1 s are left"
+    assert see(check, far[-1])
+    slow = following("covers", **parameters)
+    assert not see(slow, *way((0, 0), (2, 0), (4, 0), (5, 0), (9, 0)))
+    words = "5.0 m, on a way 5.0 m wide: 6 m are needed, and 3 m wide. Press New start."
+    assert slow.words == words
+    assert see(slow, *way((0, 0), (2, 0), (4, 0), (4, 2), episode=2))
+    assert not see(following("covers", **parameters), *way((0, 0), (2, 0), (0, 0), (2, 0)))
+    *most, last = far
+    assert not see(following("covers", **parameters), *most, replace(last, outcome="fell"))
+    assert not see(following("covers", **parameters), *most, replace(last, step=5))  # a break
 
 
 def test_turns_takes_off_what_is_turned_back() -> None:

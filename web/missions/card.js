@@ -186,7 +186,7 @@ export class MissionCard {
       const isEarned = star.is_earned;
       setText(item.firstChild, isEarned ? "★" : "☆");
       setAttributes(item.firstElementChild, { "aria-label": isEarned ? t("earned") : t("not yet"), "data-earned": isEarned });
-      setText(item.lastChild, star.text);
+      setBold(/** @type {HTMLElement} */ (item.lastChild), star.text);
     });
   }
 
