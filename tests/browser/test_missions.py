@@ -130,7 +130,10 @@ def test_a_step_can_be_left_out_and_is_not_counted(desk: PanelPage) -> None:
 
 
 def test_after_the_last_step_come_stars_and_the_next_mission(desk: PanelPage) -> None:
-    stars = [{"text": "Do the mission.", "is_earned": True}, {"text": "*Fast*.", "is_earned": False}]
+    stars = [
+        {"text": "Do the mission.", "is_earned": True},
+        {"text": "*Fast*.", "is_earned": False},
+    ]
     desk.panel.change("mission", step=2, is_done=True, done="Well done.", stars=stars)
     expect(card(desk).get_by_role("listitem")).to_have_text(["★Do the mission.", "☆Fast."])
     expect(card(desk).get_by_role("listitem").locator("b")).to_have_text(["Fast"])

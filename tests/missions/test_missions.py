@@ -160,6 +160,8 @@ DRIVEN = [name for name in EXERCISES if SOLUTIONS[name] is program]
 def test_wrong_programs_of_an_exercise_do_not_pass(name: str) -> None:
     failed = []
     for answer in answers_to(EXERCISES[name].exercise).wrong:
+        if answer.hint == "endless":
+            continue  # a page stops it; here it would go on for ever
         do = Doing(name)
         program(do, answer.code)
         failed += [] if do.is_done else [answer.name]
