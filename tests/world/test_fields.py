@@ -188,6 +188,16 @@ def _cross(one: Region, other: Region) -> bool:
     return side(a, b, c) * side(a, b, d) < -1e-9 and side(c, d, a) * side(c, d, b) < -1e-9
 
 
+@pytest.mark.parametrize("field", [LINES[1], RESCUES[1]])
+def test_each_mark_is_at_a_place_of_its_own(field: LineField | RescueField) -> None:
+    """One at a crossing would lie under the next one, if the line comes there once more."""
+    for seed in range(300):
+        places = generated(field, seed).places
+        marked = [places[name][0] for name in (*field.marks, field.goal)]
+        apart = min(math.dist(a, b) for n, a in enumerate(marked) for b in marked[:n])
+        assert apart > 0.5 * field.cell, seed
+
+
 @pytest.mark.parametrize(
     ("easy", "hard"),
     [

@@ -226,6 +226,9 @@ class LineField(LineBase):
         }
         for number, name in enumerate(self.marks, 1):
             index = round(number * (len(path) - 1) / (len(self.marks) + 1))
+            # at a crossing, which the line passes twice, two marks could lie in one place
+            while path.count(path[index]) > 1:
+                index += 1
             places[name] = self.centre(path[index]), None
         return GeneratedField(tuple(self.painted(parts)), places)
 
