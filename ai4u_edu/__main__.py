@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from ai4u_edu import bootstrap
+from ai4u_edu.bootstrap import _
 
 ROOT = Path(__file__).resolve().parent.parent
 AGAIN = "AI4U_EDU_RESTARTED"
@@ -28,20 +29,28 @@ def main() -> None:
         return
     if not bootstrap.is_checkout(ROOT):
         sys.exit(
-            f"AI4U Edu needs the module {missing}, and {sys.executable} doesn't have it.\n"
-            "Mend it with: pip install ai4u-edu"
+            _(
+                "AI4U Edu needs the module {missing}, and {python} doesn't have it.\n"
+                "Mend it with: pip install ai4u-edu",
+                missing=missing,
+                python=sys.executable,
+            )
         )
     if restarted:
         sys.exit(
-            f"The module {missing} is missing even in {ROOT / '.venv'}.\n"
-            "Delete .venv, then run the same command again."
+            _(
+                "The module {missing} is missing even in {folder}.\n"
+                "Delete .venv, then run the same command again.",
+                missing=missing,
+                folder=ROOT / ".venv",
+            )
         )
     try:
         python = bootstrap.ensure(ROOT)
     except bootstrap.InstallError as error:
         sys.exit(str(error))
     except KeyboardInterrupt:
-        sys.exit("Stopped; the next run goes on from here.")
+        sys.exit(_("Stopped; the next run goes on from here."))
     _restart(str(python))
 
 

@@ -6,6 +6,7 @@ Python what to do.
 
 from __future__ import annotations
 
+import gettext
 import hashlib
 import json
 import os
@@ -24,6 +25,32 @@ TORCH = "torch==2.13.0"
 WITH_TORCH = {"dev", "train"}
 # Python compiles a module when it is first imported. To compile all of them takes half the time.
 PIP_INSTALL = ["-m", "pip", "install", "--quiet", "--no-input", "--no-compile"]
+
+
+def _translations() -> gettext.NullTranslations:
+    """Return the catalogue of the terminal's language; ai4u_edu.locale needs a newer Python."""
+    words = sys.argv[1:]
+    options = [
+        word.partition("=")[2] or "".join(words[at + 1 : at + 2])
+        for at, word in enumerate(words)
+        if word.partition("=")[0] == "--lang"
+    ]
+    names = ("AI4U_LANG", "LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG")
+    wanted = [code for name in names for code in os.environ.get(name, "").split(":")]
+    folder = Path(__file__).resolve().parent / "locale"
+    for code in filter(None, options + wanted):
+        short = code.partition(".")[0].replace("-", "_").partition("_")[0].lower()
+        if short == "en":
+            break
+        for file in sorted(folder.glob(short + "*/LC_MESSAGES/ai4u_edu.mo")) if short else []:
+            with file.open("rb") as opened:
+                return gettext.GNUTranslations(opened)
+    return gettext.NullTranslations()
+
+
+def _(text: str, **values: object) -> str:
+    """Return a sentence in the terminal's language, with its values."""
+    return _translations().gettext(text).format(**values)
 
 
 class InstallError(Exception):
@@ -49,8 +76,11 @@ def ensure(root: Path, extras: Sequence[str] = ()) -> Path:
     """
     if not is_checkout(root):
         raise InstallError(
-            f"Expected AI4U Edu's pyproject.toml in {root}, and it isn't there.\n"
-            "Run the command in the folder that `git clone` made."
+            _(
+                "Expected AI4U Edu's pyproject.toml in {root}, and it isn't there.\n"
+                "Run the command in the folder that `git clone` made.",
+                root=root,
+            )
         )
     venv = root / ".venv"
     python = venv / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
@@ -68,17 +98,20 @@ def ensure(root: Path, extras: Sequence[str] = ()) -> Path:
         return python
 
     _check_age(version)
-    _say("Setting up AI4U Edu in .venv (about a minute, once) ...")
+    _say(_("Setting up AI4U Edu in .venv (about a minute, once) ..."))
     _begin(venv, stamp, before)
     _give_pip(venv, python, version)
     _install(root, python, wanted["extras"])
     wanted["python"] = _version(venv, python)
     if not wanted["python"]:
         raise InstallError(
-            f"Expected {python} to start, and it doesn't; start it by hand to see why."
+            _(
+                "Expected {python} to start, and it doesn't; start it by hand to see why.",
+                python=python,
+            )
         )
     stamp.write_text(json.dumps(wanted), encoding="utf-8")
-    _say("Done.")
+    _say(_("Done."))
     return python
 
 
@@ -108,19 +141,26 @@ def _version(venv: Path, python: Path) -> list[int]:
 
 
 def _check_age(version: list[int]) -> None:
-    need = "AI4U Edu needs Python {}.{} or newer".format(*OLDEST)
+    oldest = "{}.{}".format(*OLDEST)
     if version and tuple(version[:2]) < OLDEST:
         raise InstallError(
-            "{}; the folder .venv holds Python {}.{}.{}.\n".format(need, *version)
-            + "Delete .venv, then run the same command with a newer Python."
+            _(
+                "AI4U Edu needs Python {oldest} or newer; the folder .venv holds Python "
+                "{version}.\nDelete .venv, then run the same command with a newer Python.",
+                oldest=oldest,
+                version=".".join(map(str, version)),
+            )
         )
     if not version and sys.version_info[:2] < OLDEST:
         raise InstallError(
-            "{}; this is Python {}.{}.{} ({}).\n".format(
-                need, *sys.version_info[:3], sys.executable
+            _(
+                "AI4U Edu needs Python {oldest} or newer; this is Python {version} ({file}).\n"
+                "Install a newer one (python.org has them for every system), then run the same "
+                "command with it, for example with `python3.12` in place of `python3`.",
+                oldest=oldest,
+                version="{}.{}.{}".format(*sys.version_info[:3]),
+                file=sys.executable,
             )
-            + "Install a newer one (python.org has them for every system), then run the same "
-            "command with it, for example with `python3.12` in place of `python3`."
         )
 
 
@@ -131,8 +171,12 @@ def _begin(venv: Path, stamp: Path, before: dict[str, Any]) -> None:
         stamp.write_text(json.dumps({"extras": before.get("extras", [])}), encoding="utf-8")
     except OSError as error:
         raise InstallError(
-            f"Expected to write into {venv}, and couldn't: {error.strerror}.\n"
-            "Move AI4U Edu into a folder of your own. If .venv is somebody else's, delete it."
+            _(
+                "Expected to write into {venv}, and couldn't: {problem}.\n"
+                "Move AI4U Edu into a folder of your own. If .venv is somebody else's, delete it.",
+                venv=venv,
+                problem=error.strerror,
+            )
         ) from error
 
 
@@ -143,16 +187,19 @@ def _give_pip(venv: Path, python: Path, version: list[int]) -> None:
     maker = python if version else Path(sys.executable)
     if _run(maker, "-c", "import ensurepip, venv").returncode:
         raise InstallError(
-            f"Expected Python's own modules venv and ensurepip, and {maker} comes without them.\n"
-            "On Debian and Ubuntu: sudo apt install python3-venv\n"
-            "Elsewhere: install Python from python.org. Then run the same command again."
+            _(
+                "Expected Python's own modules venv and ensurepip, and {python} comes without "
+                "them.\nOn Debian and Ubuntu: sudo apt install python3-venv\n"
+                "Elsewhere: install Python from python.org. Then run the same command again.",
+                python=maker,
+            )
         )
     if version:  # made by a tool that leaves pip out, or killed before pip came
         done = _run(python, "-m", "ensurepip", "--upgrade")
     else:
         clear = ["--clear"] if (venv / "pyvenv.cfg").exists() else []
         done = _run(maker, "-m", "venv", *clear, str(venv))
-    _check(done, "Making .venv failed.", "Delete .venv, then run the same command again.")
+    _check(done, _("Making .venv failed."), _("Delete .venv, then run the same command again."))
 
 
 def _install(root: Path, python: Path, extras: list[str]) -> None:
@@ -162,9 +209,11 @@ def _install(root: Path, python: Path, extras: list[str]) -> None:
     done = _run(python, *PIP_INSTALL, "-e", project, cwd=root)
     _check(
         done,
-        "pip couldn't install AI4U Edu's packages.",
-        "They come over the network: see that it works, then run the same command again. "
-        "If that doesn't help, delete .venv first.",
+        _("pip couldn't install AI4U Edu's packages."),
+        _(
+            "They come over the network: see that it works, then run the same command again. "
+            "If that doesn't help, delete .venv first."
+        ),
     )
 
 

@@ -58,6 +58,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--nightly", action="store_true", help="also the tests marked `nightly`")
     group.addoption("--seed", type=int, help="draw the order of files and of tests within them")
     group.addoption(
+        "--unmarked", type=Path, help="file for sentences that nobody marked for translation"
+    )
+    group.addoption(
         "--results", type=Path, default=evidence.RESULTS, help="folder for files of failed tests"
     )
 
@@ -69,6 +72,10 @@ def pytest_report_header(config: pytest.Config) -> list[str]:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.pluginmanager.register(Tier(config), "tier")
+    if config.option.unmarked:
+        from tests.unmarked import Unmarked
+
+        config.pluginmanager.register(Unmarked(config.option.unmarked), "unmarked")
     if config.option.fast:
         from tests.only_extras import OnlyExtras  # an installed wheel is tested without packaging
 

@@ -13,7 +13,7 @@ from ai4u_edu.blocks.brains.brain import Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.rewards.reward_func import RewardFunc
 from ai4u_edu.blocks.sensors.sensor import Sensor
-from ai4u_edu.locale import Text
+from ai4u_edu.locale import Text, join, translate
 from ai4u_edu.locale import gettext as _
 
 KINDS: dict[str, type[Block]] = {
@@ -26,6 +26,14 @@ KINDS: dict[str, type[Block]] = {
 
 PARTS = "parts"
 """Blocks inside other blocks, such as the internal variables of a HomeostaticReward."""
+KIND_TITLES = {
+    "sensors": _("sensors"),
+    "actuators": _("actuators"),
+    "rewards": _("rewards"),
+    "brains": _("brains"),
+    "controllers": _("controllers"),
+    PARTS: _("parts"),
+}
 
 
 class ParameterRow(NamedTuple):
@@ -93,7 +101,9 @@ def coming_from_ai4u() -> str:
 
 
 def lesson_page(name: str) -> str:
-    """Return the description and the parameters of a block, as text.
+    """Return the description and the parameters of a block, in the reader's language.
+
+    The description stays in English.
 
     Raises:
         NameNotFoundError: there is no such block; the message suggests the nearest name.
@@ -107,9 +117,10 @@ def lesson_page(name: str) -> str:
         raise NameNotFoundError(_("no block is called {name!r}; {hint}", name=name, hint=hint))
     cls = known[name]
     described = (inspect.getdoc(cls) or "").split("\n\n>>>")[0]
-    rows = [("parameter", "default", "range", "")]
+    rows = [(translate(_("parameter")), translate(_("default")), translate(_("range")), "")]
     for field, default, values, unit, text in parameter_rows(cls):
-        rows.append((field, default, " ".join(filter(None, (values, unit))), text))
+        limits = " ".join(filter(None, (translate(values), unit)))
+        rows.append((field, translate(default), limits, translate(text)))
     widths = [max(len(row[column]) for row in rows) for column in range(3)]
     lines = ["  ".join((*map(str.ljust, row[:3], widths), row[3])).rstrip() for row in rows]
     return "\n".join([f"{name}: {described}", "", *lines])
@@ -132,9 +143,11 @@ def schema_rows(schema: dict[str, Any]) -> list[ParameterRow]:
     """
     rows = []
     for field, about in schema.get("properties", {}).items():
-        missing = "(needed)" if field in schema.get("required", ()) else "(own)"
+        missing = _("(needed)") if field in schema.get("required", ()) else _("(own)")
         default = json.dumps(about["default"]) if "default" in about else missing
-        rows.append(ParameterRow(field, default, *_range(about), about.get("description", "")))
+        rows.append(
+            ParameterRow(field, default, *_range(about), Text(about.get("description", "")))
+        )
     return rows
 
 
@@ -142,11 +155,20 @@ def _hint_from_ai4u(name: str) -> str:
     """Return a clause on the counterpart of a class of AI4U; empty for any other name."""
     source = _ai4u_sources().get(name)
     if source is not None:
-        return f"AI4U's {name} is {source.__name__} here"
+        return _("AI4U's {name} is {here} here", name=name, here=source.__name__)
     for each in _AI4U_CLASSES:
         if each.ai4u == name:
-            there = f"is {each.here} here" if each.here else "has no class of its own here"
-            return f"AI4U's {name} {there}. {each.words}".replace("``", "")
+            there = _(
+                "AI4U's {name} has no class of its own here. {more}", name=name, more=each.words
+            )
+            if each.here:
+                there = _(
+                    "AI4U's {name} is {here} here. {more}",
+                    name=name,
+                    here=each.here,
+                    more=each.words,
+                )
+            return there
     return ""
 
 
@@ -156,13 +178,14 @@ def _range(about: dict[str, Any]) -> tuple[str, str]:
         return " | ".join(map(str, about["enum"])), ""
     options = [each for each in about.get("anyOf", ()) if each.get("type") != "null"]
     about = {**about, **options[0]} if options else about
-    kind = {"number": "", "integer": "whole", "boolean": "true | false", "string": "text"}
-    kind |= {"array": "list", "object": "mapping"}
+    kind = {"number": "", "integer": _("whole"), "boolean": "true | false", "string": _("text")}
+    kind |= {"array": _("list"), "object": _("mapping")}
     low = about.get("minimum", about.get("exclusiveMinimum"))
     high = about.get("maximum", about.get("exclusiveMaximum"))
     bounds = f"{_show(low)}..{_show(high)}" if _show(low) or _show(high) else ""
     name = str(about.get("type", ""))
-    return " ".join(filter(None, (kind.get(name, name), bounds))), str(about.get("unit", ""))
+    limits = join([part for part in (kind.get(name, name), bounds) if part])
+    return limits, str(about.get("unit", ""))
 
 
 def _show(bound: float | None) -> str:
@@ -181,87 +204,100 @@ class _Counterpart(NamedTuple):
 
 
 _AI4U_CLASSES = (
-    _Counterpart("Actuator", "Actuator", "The base of all actuators."),
+    _Counterpart("Actuator", "Actuator", _("The base of all actuators.")),
     _Counterpart(
         "AgentRewardFunc",
         "BasicAgent",
-        "No block: ``agent.add_reward(amount, request_done)``, from any event's handler.",
+        _("No block: ``agent.add_reward(amount, request_done)``, from any event's handler."),
     ),
     _Counterpart(
         "ArrowPhysicsMoveController2D",
         "ArrowController",
-        "One controller for all bodies; ``components`` and the lists of keys adapt it.",
+        _("One controller for all bodies; ``components`` and the lists of keys adapt it."),
     ),
     _Counterpart(
-        "BasicAgent", "BasicAgent", "A body with sensors, actuators, rewards and a brain."
+        "BasicAgent", "BasicAgent", _("A body with sensors, actuators, rewards and a brain.")
     ),
-    _Counterpart("Brain", "Brain", "The base of all brains."),
+    _Counterpart("Brain", "Brain", _("The base of all brains.")),
     _Counterpart(
         "Camera",
         "LocalGridSensor",
-        "There is no camera, but an image from above, for image policies.",
+        _("There is no camera, but an image from above, for image policies."),
     ),
-    _Counterpart("Camera3DSensor", "LocalGridSensor", "Like Camera; grayScale doesn't exist here."),
+    _Counterpart(
+        "Camera3DSensor", "LocalGridSensor", _("Like Camera; grayScale doesn't exist here.")
+    ),
     _Counterpart(
         "CBMoveActuator2D",
         "CBMoveActuator",
-        "The world is seen from above: flipWhenTurn and lerpFactor don't exist here.",
+        _("The world is seen from above: flipWhenTurn and lerpFactor don't exist here."),
     ),
     _Counterpart(
         "CBRespawnActuator",
         "RespawnActuator",
-        "radomizeDirection is ``randomise_heading``, and off by default.",
+        _("radomizeDirection is ``randomise_heading``, and off by default."),
     ),
     _Counterpart(
-        "CBRespawnActuator2D", "RespawnActuator", "flipWhenTurn and randomize don't exist here."
+        "CBRespawnActuator2D", "RespawnActuator", _("flipWhenTurn and randomize don't exist here.")
     ),
-    _Counterpart("Controller", "Controller", "The base of all controllers of a LocalBrain."),
+    _Counterpart("Controller", "Controller", _("The base of all controllers of a LocalBrain.")),
     _Counterpart(
         "ControlRequestor",
         "ControlRequestor",
-        "The decision cycle of a world and its agents: ``ControlRequestor(world, [agent])``.",
+        _("The decision cycle of a world and its agents: ``ControlRequestor(world, [agent])``."),
     ),
     _Counterpart(
         "LinearRayCastingSensor2D",
         "LinearRayCastingSensor",
-        "groupCode and groupName are one table, ``group_code``; shift is ``horizontal_shift``.",
+        _("groupCode and groupName are one table, ``group_code``; shift is ``horizontal_shift``."),
     ),
-    _Counterpart("LocalBrain", "LocalBrain", "A brain in this process, which asks its controller."),
-    _Counterpart("MinDistReward2D", "MinDistReward", "One block for both."),
-    _Counterpart("RaycastMapping", "", "No class: a ray sensor's ``group_code`` is a dictionary."),
     _Counterpart(
-        "RBMoveActuator2D", "RBMoveActuator", "One block for both; here it moves the body."
+        "LocalBrain", "LocalBrain", _("A brain in this process, which asks its controller.")
+    ),
+    _Counterpart("MinDistReward2D", "MinDistReward", _("One block for both.")),
+    _Counterpart(
+        "RaycastMapping", "", _("No class: a ray sensor's ``group_code`` is a dictionary.")
+    ),
+    _Counterpart(
+        "RBMoveActuator2D", "RBMoveActuator", _("One block for both; here it moves the body.")
     ),
     _Counterpart(
         "RestlessnessRewardFunc",
         "RestlessnessRewardFunc",
-        "The 3D version, with increseRate and decreaseRate, punishes moving: ours is the 2D one.",
+        _(
+            "The 3D version, with increseRate and decreaseRate, punishes moving: ours is the "
+            "2D one."
+        ),
     ),
-    _Counterpart("RewardFunc", "RewardFunc", "The base of all reward functions."),
+    _Counterpart("RewardFunc", "RewardFunc", _("The base of all reward functions.")),
     _Counterpart(
         "RLAgent",
         "BasicAgent",
-        "The later name of BasicAgent; ``done_at_negative_reward`` is off by default, there on.",
+        _("The later name of BasicAgent; ``done_at_negative_reward`` is off by default, there on."),
     ),
     _Counterpart(
         "ScreenSensor",
         "LocalGridSensor",
-        "Like Camera. To watch a world, open its page or render it.",
+        _("Like Camera. To watch a world, open its page or render it."),
     ),
     _Counterpart(
-        "Sensor", "Sensor", "The base of all sensors; ``normalized`` is off by default, there on."
+        "Sensor",
+        "Sensor",
+        _("The base of all sensors; ``normalized`` is off by default, there on."),
     ),
     _Counterpart(
         "TouchRewardFunc2D",
         "TouchRewardFunc",
-        "One block for both; a target may be an area. The cool-down is 0, there 0.2 s.",
+        _("One block for both; a target may be an area. The cool-down is 0, there 0.2 s."),
     ),
     _Counterpart(
-        "Trainer", "Trainer", "A script that gets each percept of a TrainController and directs it."
+        "Trainer",
+        "Trainer",
+        _("A script that gets each percept of a TrainController and directs it."),
     ),
     _Counterpart(
         "Utils",
         "",
-        "No class: percepts and actions are dictionaries with numbers in them.",
+        _("No class: percepts and actions are dictionaries with numbers in them."),
     ),
 )

@@ -15,7 +15,9 @@ import typer
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.version import __version__
+from ai4u_edu.cli.options import say
 from ai4u_edu.locale import catalogue
+from ai4u_edu.locale import gettext as _
 
 FILES = "ai4u_edu.cli.bundle_files"
 SCRIPTS = {"start.py": "\n", "start.sh": "\n", "start.command": "\n", "start.bat": "\r\n"}
@@ -44,18 +46,34 @@ def bundle(
     extras = list(dict.fromkeys(extra or ()))
     for each in extras:
         if each not in EXTRAS:
-            raise SetupError(f"--extra: expected one of {', '.join(EXTRAS)}, got {each!r}")
+            raise SetupError(
+                _(
+                    "--extra: expected one of {extras}, got {extra!r}",
+                    extras=", ".join(EXTRAS),
+                    extra=each,
+                )
+            )
     if importlib.util.find_spec("pip") is None:
         raise SetupError(
-            "expected pip, which collects the packages, and this Python comes without it; install "
-            "it with: python -m ensurepip (with uv: uvx --with pip ai4u-edu bundle FOLDER)"
+            _(
+                "expected pip, which collects the packages, and this "
+                "Python comes without it; install it with: python -m "
+                "ensurepip (with uv: uvx --with pip ai4u-edu bundle "
+                "FOLDER)"
+            )
         )
     make_folder(folder, "the bundle")
     collect_wheels(folder / "wheels", extras, wheel)
     write_course(folder / "course")
     write_scenes(folder / "scenes")
     pythons = write_scripts(folder, extras)
-    typer.echo(f"{folder}: for Python {', '.join(pythons)}; README.txt says how to start it")
+    say(
+        _(
+            "{folder}: for Python {versions}; README.txt says how to start it",
+            folder=str(folder),
+            versions=", ".join(pythons),
+        )
+    )
 
 
 def collect_wheels(folder: Path, extras: list[str], wheel: Path | None) -> None:
@@ -85,7 +103,9 @@ def _pip(*words: str) -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603 - pip
     if done.returncode:
         last = "\n".join(done.stderr.strip().splitlines()[-8:])
-        raise SetupError(f"pip could not collect the packages; is there a network here?\n{last}")
+        raise SetupError(
+            _("pip could not collect the packages; is there a network here?\n{last}", last=last)
+        )
 
 
 def write_course(folder: Path) -> None:

@@ -16,9 +16,13 @@ from typing import Annotated, NamedTuple
 import typer
 
 from ai4u_edu.base.version import __version__
+from ai4u_edu.cli.options import say
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 PACKAGE = "ai4u-edu"
 SWITCH_VARIABLE = "AI4U_COMPILED"
+REINSTALL = f"pip install --force-reinstall {PACKAGE}"
 PORT = 8080
 """The port that `play` uses unless told otherwise."""
 USES = {
@@ -54,13 +58,14 @@ def doctor(
 ) -> None:
     """Say what is installed and what is missing, as a block for a bug report."""
     findings = list(examine(port))
+    # the block stays English, for whoever reads the report; the advice is for its sender
     typer.echo("```")
     for each in findings:
         typer.echo(f"{each.subject + ':':<16}{each.state}")
     typer.echo("```")
     for each in findings:
         if each.advice:
-            typer.echo(f"{each.subject}: {each.advice}")
+            say(join([each.subject, each.advice], ": "))
     if any(each.subject == "packages" and each.advice for each in findings):
         raise typer.Exit(1)
 
@@ -148,7 +153,7 @@ def _packages() -> Finding:
     return Finding(
         "packages",
         f"missing: {', '.join(missing)}",
-        f"install it again: pip install --force-reinstall {PACKAGE}",
+        _("install it again: {command}", command=REINSTALL),
     )
 
 
@@ -158,18 +163,24 @@ def _compiled_part() -> Finding:
     if is_compiled():
         return Finding("compiled part", "in use")
     if os.environ.get(SWITCH_VARIABLE) == "0":
-        return Finding("compiled part", "switched off", f"it is used without {SWITCH_VARIABLE}=0")
+        return Finding(
+            "compiled part",
+            "switched off",
+            _("it is used without {setting}", setting=f"{SWITCH_VARIABLE}=0"),
+        )
     if not IS_NATIVE:
         return Finding(
             "compiled part",
             "not used: another pymunk than the tested one",
-            f"all numbers are right, and rays slower; pip install --force-reinstall {PACKAGE}",
+            _("all numbers are right, and rays slower; {command}", command=REINSTALL),
         )
     return Finding(
         "compiled part",
         "missing",
-        "all numbers are right, and rays take up to twice as long; there is a wheel with it for "
-        "most systems, and in a clone with a C compiler: pip install -e .",
+        _(
+            "all numbers are right, and rays take up to twice as long; there is a wheel with it "
+            "for most systems, and in a clone with a C compiler: pip install -e ."
+        ),
     )
 
 
@@ -181,7 +192,8 @@ def _extra(extra: str, use: str) -> Finding:
         return Finding(subject, f"installed, for {use}")
     if len(missing) < len(names):
         lacks = f"in part, for {use}; missing: {', '.join(missing)}"
-        return Finding(subject, lacks, f'complete it with: pip install "{PACKAGE}[{extra}]"')
+        complete = f'pip install "{PACKAGE}[{extra}]"'
+        return Finding(subject, lacks, _("complete it with: {command}", command=complete))
     return Finding(subject, f"not installed, would be for {use}")
 
 
@@ -193,7 +205,9 @@ def _port(port: int) -> Finding:
             probe.bind(("127.0.0.1", port))
         except OSError:
             return Finding(
-                f"port {port}", "taken", "another program, or AI4U Edu, has it; play --port 0"
+                f"port {port}",
+                "taken",
+                _("another program, or AI4U Edu, has it; play --port 0"),
             )
     return Finding(f"port {port}", "free")
 
@@ -209,6 +223,8 @@ def _browser() -> Finding:
     return Finding(
         "browser",
         f"{', '.join(found) or 'none found'}; {desktop}",
-        "open the address that `play` prints in a browser, here or on another machine "
-        "(then with --host)",
+        _(
+            "open the address that `play` prints in a browser, here or on another machine (then "
+            "with --host)"
+        ),
     )

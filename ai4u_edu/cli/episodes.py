@@ -18,10 +18,14 @@ from ai4u_edu.cli.options import (
     SCENE_AND_MORE,
     OwnBlocks,
     expect_scene,
+    let_it_drive,
     load_own_blocks,
+    say,
     seed_option,
 )
 from ai4u_edu.cli.training_options import Trainer
+from ai4u_edu.locale import Text, join, ngettext, translate
+from ai4u_edu.locale import gettext as _
 
 if TYPE_CHECKING:
     from ai4u_edu.agent import BasicAgent
@@ -85,7 +89,9 @@ def record(
     finally:
         recorder.finish()  # Ctrl-C ends the episode, and loses nothing of it
     Console().print(_overview(list(recorder.episodes)))
-    typer.echo(f"saved in {out}; watch one:  ai4u-edu replay {out}/... --html episode.html")
+    say(
+        _("saved in {out}; watch one:  ai4u-edu replay {out}/... --html episode.html", out=str(out))
+    )
 
 
 def replay(
@@ -120,10 +126,16 @@ def replay(
         if path is not None:
             typer.echo(f"{write(played, path)}: {path.stat().st_size / 1000:.0f} kB")
     if verdict.exact:
-        typer.echo("the replay is exact, bit for bit")
+        say(_("the replay is exact, bit for bit"))
         return
     seconds = verdict.exact_until / played.episode.scene.world.ticks_per_second
-    typer.echo(f"the replay is exact up to {seconds:.2f} s and not beyond: {verdict.why}")
+    say(
+        _(
+            "the replay is exact up to {seconds:.2f} s and not beyond: {why}",
+            seconds=seconds,
+            why=verdict.why,
+        )
+    )
     raise typer.Exit(1)
 
 
@@ -143,15 +155,18 @@ def dataset(
     from ai4u_edu.learn.training.demonstrations import demonstrations, load_episodes
 
     if out is None and not minari:
-        raise SetupError("expected --out FILE.npz, --minari NAME, or both")
+        raise SetupError(_("expected --out FILE.npz, --minari NAME, or both"))
     load_own_blocks(own_blocks)
     shown = demonstrations(load_episodes(data), agent=agent, observation=observation)
-    told = f"{len(shown.episodes)} episodes, {shown.decisions} decisions"
+    told = {
+        "episodes": ngettext("{n} episode", "{n} episodes", len(shown.episodes)),
+        "decisions": ngettext("{n} decision", "{n} decisions", shown.decisions),
+    }
     if out is not None:
-        typer.echo(f"{shown.save(out)}: {told}")
+        say(_("{file}: {episodes}, {decisions}", file=str(shown.save(out)), **told))
     if minari:
         shown.to_minari(minari)
-        typer.echo(f"Minari dataset {minari}: {told}")
+        say(_("Minari dataset {name}: {episodes}, {decisions}", name=minari, **told))
 
 
 def clone(
@@ -189,25 +204,35 @@ def clone(
     load_own_blocks(own_blocks)
     episodes = load_episodes(data)
     done = cloned(episodes, out, agent=agent, seed=seed, updates=updates, trainer=trainer)
-    typer.echo(f"{done.path}: cloned from {done.decisions} decisions, {_quality(done)}")
+    say(
+        _(
+            "{path}: cloned from {decisions} decisions, {quality}",
+            path=str(done.path),
+            decisions=done.decisions,
+            quality=_quality(done),
+        )
+    )
     if evaluate:
         who = with_changes(entrant(str(out)), agent=agent or "")
         where = _driven_by(out, episodes[0], agent)
         seeds = range(1000, 1000 + evaluate)
         result = evaluated(who, where, counted(seeds, who.name))
         Console().print(evaluation_table([result]))
-    typer.echo(f"let it drive:  ai4u-edu play {episodes[0].scene.name} --brain {out}")
+    let_it_drive(episodes[0].scene.name, out)
 
 
-def _quality(done: "Cloned") -> str:
+def _quality(done: "Cloned") -> Text:
     """Return how well a clone does what it was shown, as the rest of a sentence, and more lines."""
     if done.alike is None or done.commonest is None:
-        return f"error {done.loss:.4f}"
-    measure = (
-        f"and on {done.held_out} held-out ones it acts like the driver in {done.alike:.0%} "
-        f"(always the same action: {done.commonest:.0%})"
+        return _("error {loss:.4f}", loss=done.loss)
+    measure = _(
+        "and on {held_out} held-out ones it acts like the driver in {alike:.0%} (always the same "
+        "action: {commonest:.0%})",
+        held_out=done.held_out,
+        alike=done.alike,
+        commonest=done.commonest,
     )
-    return "\n".join([measure, *done.remarks])
+    return join([measure, *done.remarks], "\n")
 
 
 def _driven_by(network: Path, episode: "Episode", agent_id: str | None) -> "Scene":
@@ -232,9 +257,15 @@ def _with_brains(scene: "Scene", specs: list[str]) -> "tuple[ControlRequestor, S
     controller = getattr(sim.agents[0].brain, "controller", None)
     if hasattr(controller, "_keyboard"):
         raise SetupError(
-            f"agent {sim.agents[0].id!r} is driven by keys ({type(controller).__name__}), and "
-            "nobody is here to hold them; name who drives, as in --brain FILE.py:NAME, or drive "
-            f"yourself: ai4u-edu play {scene.description.name} --record DIR"
+            _(
+                "agent {id!r} is driven by keys ({controller}), and nobody "
+                "is here to hold them; name who drives, as in --brain "
+                "FILE.py:NAME, or drive yourself: ai4u-edu play "
+                "{scene} --record DIR",
+                id=sim.agents[0].id,
+                controller=type(controller).__name__,
+                scene=scene.description.name,
+            )
         )
     return sim, scene
 
@@ -257,19 +288,28 @@ def _drive(sim: "ControlRequestor", agent: "BasicAgent", seed: int) -> None:
         if isinstance(agent.brain, RemoteBrain):
             if in_vain == 1:
                 reason = reason_for_no_decision(agent)
-                typer.echo(f"agent {agent.id!r} waits: {reason}  (Ctrl-C ends it)", err=True)
+                waits = _(
+                    "agent {id!r} waits: {reason}  (Ctrl-C ends it)", id=agent.id, reason=reason
+                )
+                say(waits, err=True)
             time.sleep(SCRIPT_POLL_S)
         elif in_vain == DEFAULT_MAX_DECISIONS:
             reason = reason_for_no_decision(agent)
             raise NoDecisionError(
-                f"agent {agent.id!r} took no decision in {DEFAULT_MAX_DECISIONS} ticks: {reason}"
+                _(
+                    "agent {id!r} took no decision in {most} ticks: {reason}",
+                    id=agent.id,
+                    most=DEFAULT_MAX_DECISIONS,
+                    reason=reason,
+                )
             )
 
 
 def _overview(episodes: "list[Episode]") -> Table:
     told = Table(box=None, pad_edge=False)
-    for heading in ("scene", "seed", "seconds", "decisions", "reward", "success"):
-        told.add_column(heading, justify="left" if heading == "scene" else "right")
+    told.add_column(translate(_("scene")))
+    for heading in (_("seed"), _("seconds"), _("decisions"), _("reward"), _("success")):
+        told.add_column(translate(heading), justify="right")
     for each in episodes:
         first = each.agents[0]
         told.add_row(
@@ -287,12 +327,21 @@ def _details(episode: "Episode") -> Table:
     told = Table(
         box=None,
         pad_edge=False,
-        title=f"{episode.scene.name}, seed {episode.seed}, {episode.seconds:.1f} s, "
-        f"success: {_yes(episode.success)}",
+        title=translate(
+            _(
+                "{scene}, seed {seed}, {seconds:.1f} s, success: {success}",
+                scene=episode.scene.name,
+                seed=episode.seed,
+                seconds=episode.seconds,
+                success=_yes(episode.success),
+            )
+        ),
         title_justify="left",
     )
-    for heading in ("agent", "decisions", "reward", "terms"):
-        told.add_column(heading, justify="right" if heading in ("decisions", "reward") else "left")
+    told.add_column(translate(_("agent")))
+    for heading in (_("decisions"), _("reward")):
+        told.add_column(translate(heading), justify="right")
+    told.add_column(translate(_("terms")))
     for record in episode.agents:
         sums: dict[str, float] = {}
         for decision in record:
@@ -304,4 +353,4 @@ def _details(episode: "Episode") -> Table:
 
 
 def _yes(success: bool | None) -> str:
-    return "-" if success is None else "yes" if success else "no"
+    return "-" if success is None else translate(_("yes") if success else _("no"))

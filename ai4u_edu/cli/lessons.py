@@ -8,7 +8,8 @@ from typing import Annotated
 
 import typer
 
-from ai4u_edu.locale import catalogue, ngettext, translate
+from ai4u_edu.cli.options import say
+from ai4u_edu.locale import catalogue, ngettext
 from ai4u_edu.locale import gettext as _
 
 FIRST = "00_start_here.ipynb"
@@ -51,20 +52,20 @@ def lessons(
         need("lessons", "jupyterlab", "ipykernel", "matplotlib")
     done = hand_out(folder, catalogue().language)
     new, kept = len(done.new), len(done.kept)
-    _say(
+    say(
         ngettext(
             "{n} new notebook in {folder}", "{n} new notebooks in {folder}", new, folder=str(folder)
         )
     )
     if done.kept:
-        _say(
+        say(
             ngettext(
                 "{n} was there already and is kept", "{n} were there already and are kept", kept
             )
         )
     for name in done.beside:
         older = name.replace(".new", "")
-        _say(_("a newer {older} is beside yours: {name}", older=older, name=name))
+        say(_("a newer {older} is beside yours: {name}", older=older, name=name))
     if start:
         _become(lab(folder, port, open_page=open_page), lab_config(folder))
 
@@ -74,14 +75,10 @@ def _collect(folder: Path) -> None:
 
     collected = collect(folder)
     for problem in collected.problems:
-        typer.echo(problem, err=True)
-    _say(ngettext("{n} student:", "{n} students:", len(collected.students)))
+        say(problem, err=True)
+    say(ngettext("{n} student:", "{n} students:", len(collected.students)))
     for path in collected.write(folder):
         typer.echo(f"  {path}")
-
-
-def _say(text: str) -> None:
-    typer.echo(translate(text))
 
 
 def lab(folder: Path, port: int, *, open_page: bool) -> list[str]:

@@ -29,15 +29,17 @@ from ai4u_edu.cli.options import (
     OwnBlocks,
     finite,
     load_own_blocks,
+    say,
 )
 from ai4u_edu.cli.play import play
+from ai4u_edu.cli.refusals import App, refuse
 from ai4u_edu.locale import (
     LANGUAGES,
     PYTHON,
-    SOURCE,
     VARIABLE,
     catalogue,
     known_language,
+    library_text,
     ngettext,
     translate,
 )
@@ -47,7 +49,7 @@ from ai4u_edu.locale.catalogues import FOLDER
 LANGUAGE_OPTION = "--lang"
 ONE_THREAD_COMMANDS = ("clone", "train")
 """Commands whose networks depend on the count of threads in which NumPy computes."""
-app = typer.Typer(
+app = App(
     name="ai4u-edu",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -67,15 +69,19 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
     _take_language(sys.argv)
-    run = app if catalogue().language == SOURCE else _translated_command()
     try:
-        run()
+        status = _translated_command()(standalone_mode=False)
+        sys.exit(status if isinstance(status, int) else 0)
     except AI4UError as error:
         _fail(translate(text_of(error)))
     except OSError as error:
         if error.filename is None:  # no file's
             raise
         _fail(f"{error.filename}: {error.strerror}")
+    except typer.Abort:
+        _fail(_("interrupted"))
+    except typer.TyperException as error:
+        refuse(error)
     except SystemExit as ended:
         exits = sys.modules.get("ai4u_edu.page.server.process_exit")  # of a command that has served
         if exits is not None:
@@ -109,7 +115,7 @@ def _take_language(words: list[str]) -> None:
     gnu.textdomain(PYTHON)
 
 
-def _translated_command() -> Callable[[], object]:
+def _translated_command() -> Callable[..., object]:
     command = typer.main.get_command(app)
     for part in _helped(command):
         part.help = catalogue().message(part.help)
@@ -244,14 +250,19 @@ def scenes(
     console = Console(highlight=False)
     for each in names:
         described = Scene.load(each).description
-        title = f" ({described.title})" if described.title else ""
+        title = f" ({translate(library_text(described.title))})" if described.title else ""
         console.print(Text.assemble((each, "bold"), title))
         table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 0, 0, 2))
         table.add_column(no_wrap=True)
         table.add_column(overflow="fold")
-        for heading in ("goal", "controls", "rewards"):
+        texts = {
+            _("goal"): described.goal,
+            _("controls"): described.controls,
+            _("rewards"): described.rewards,
+        }
+        for heading, text in texts.items():
             # a text of a scene may hold brackets, which are no markup here
-            table.add_row(heading, Text(getattr(described, heading)))
+            table.add_row(translate(heading), Text(translate(library_text(text))))
         console.print(table)
         console.print()
 
@@ -292,13 +303,13 @@ def blocks(
     name: Annotated[str, typer.Argument(help="Explain this block.")] = "",
 ) -> None:
     """List the blocks that agents are built from, or explain one."""
-    from ai4u_edu.blocks.docs import built_in_blocks, lesson_page, short_summary
+    from ai4u_edu.blocks.docs import KIND_TITLES, built_in_blocks, lesson_page, short_summary
 
     if name:
-        typer.echo(lesson_page(name))
+        say(lesson_page(name))
         return
     for kind, members in built_in_blocks().items():
-        typer.secho(kind, bold=True)
+        typer.secho(translate(KIND_TITLES[kind]), bold=True)
         for cls in members:
             typer.echo(f"  {cls.__name__:<28}{translate(short_summary(cls))}")
 

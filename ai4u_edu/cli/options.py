@@ -9,6 +9,7 @@ import typer
 
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import MAX_SEED, MAX_TRAINING_SEED
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import translate
 
 MAX_EPISODES = 1_000_000
@@ -33,15 +34,21 @@ OwnBlocks = Annotated[
 ]
 
 
-def say(text: str) -> None:
-    """Print a text in the language of the terminal."""
-    typer.echo(translate(text))
+def say(text: str, *, err: bool = False) -> None:
+    """Print a text in the language of the terminal, on stdout or stderr."""
+    typer.echo(translate(text), err=err)
+
+
+def let_it_drive(scene: str, network: Path) -> None:
+    """Print the command with which a network drives in a scene."""
+    command = f"ai4u-edu play {scene} --brain {network}"
+    say(_("let it drive:  {command}", command=command))
 
 
 def finite(value: float | None) -> float | None:
     """Refuse NaN, which is neither below a minimum nor above a maximum, and infinity."""
     if value is not None and not math.isfinite(value):
-        raise typer.BadParameter(f"expected a finite number, got {value}")
+        raise typer.BadParameter(_("expected a finite number, got {value}", value=value))
     return value
 
 
@@ -61,8 +68,12 @@ def expect_scene(command: str, words: Sequence[str]) -> None:
     scene = next((word for word in words if word not in drivers), "SCENE")
     right = " ".join([scene, *(f"--brain {word}" for word in drivers or ["DRIVER"])])
     raise typer.BadParameter(
-        f"expected one scene, got {' '.join(words)}; the driver is an option: "
-        f"ai4u-edu {command} {right}"
+        _(
+            "expected one scene, got {words}; the driver is an option: ai4u-edu {command} {right}",
+            words=" ".join(words),
+            command=command,
+            right=right,
+        )
     )
 
 
@@ -118,5 +129,8 @@ def check_blocks(scene: Mapping[str, Any], files: Iterable[Path] | None) -> None
     unnamed = [str(each) for each in scene.get("blocks", ()) if str(each) not in given]
     if unnamed:
         raise SetupError(
-            f"its scene runs the Python file {unnamed[0]}; read it, then say --blocks {unnamed[0]}"
+            _(
+                "its scene runs the Python file {file}; read it, then say --blocks {file}",
+                file=unnamed[0],
+            )
         )

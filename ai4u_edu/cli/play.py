@@ -181,7 +181,7 @@ def _with_class(
         return _with_class_at_hub(settings, port)
     if not url:
         if code:
-            raise typer.BadParameter("expected --class with the address of the class, too")
+            raise typer.BadParameter(_("expected --class with the address of the class, too"))
         return settings
     from ai4u_edu.base.atomic_write import make_folder
     from ai4u_edu.member import ClassLinkSettings, SeatFile

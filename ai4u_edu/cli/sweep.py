@@ -297,7 +297,11 @@ def _run(plan: "SweepPlan", folder: Path, engine_name: str, address: str) -> "Sw
                 )
             )
         best = ranked(results)[0]
-        shown = f"best {best.cells(())['success'] or f'{best.value:.2f}'}" if best.checks else ""
+        shown = ""
+        if best.checks:
+            success = best.best.success
+            value = f"{best.value:.2f}" if success is None else f"{success:.0%}"
+            shown = translate(_("best {value}", value=value))
         bar.show(max(kept, len(results)), shown)
 
     with closing(bar), engine(engine_name, address=address) as running:
@@ -325,9 +329,11 @@ def _report(done: "Sweep", engine: str) -> None:
         rows = [each.cells(names) for each in ranked(done.results)[:SHOWN_TRIALS]]
         shown = Table(box=None, pad_edge=False)
         for heading in rows[0]:
-            shown.add_column(heading, justify="left" if heading == "algorithm" else "right")
+            shown.add_column(
+                translate(heading), justify="left" if heading == "algorithm" else "right"
+            )
         for row in rows:
-            shown.add_row(*row.values())
+            shown.add_row(*map(translate, row.values()))
         Console().print(shown)
     if done.evaluation is not None:
         say(_("best network, {evaluation}", evaluation=repr(done.evaluation)))

@@ -12,9 +12,18 @@ from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.base.seeding import seeds_from
 from ai4u_edu.cli import training_options as o
-from ai4u_edu.cli.options import OwnBlocks, expect_scene, is_driver, load_own_blocks
+from ai4u_edu.cli.options import (
+    OwnBlocks,
+    expect_scene,
+    is_driver,
+    let_it_drive,
+    load_own_blocks,
+    say,
+)
 from ai4u_edu.cli.sweep import sweep
 from ai4u_edu.cli.tournament import tournament
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext, translate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -62,7 +71,7 @@ def train(
     from ai4u_edu.learn.training import train as trained
 
     if resume and out is None:
-        raise SetupError("--resume needs --out, the folder of the training to go on with")
+        raise SetupError(_("--resume needs --out, the folder of the training to go on with"))
     load_own_blocks(own_blocks)
     with ExitStack() as ending:
         page = ending.enter_context(_page(port)) if watch else None
@@ -85,10 +94,10 @@ def train(
             agent=agent,
             against=against,
         )
-        typer.echo(_summary(result))
+        say(_summary(result))
         if page and not result.interrupted:
             with suppress(KeyboardInterrupt):  # as soon as it is announced
-                typer.echo("the trained policy drives in the page; Ctrl-C ends it")
+                say(_("the trained policy drives in the page; Ctrl-C ends it"))
                 page.wait()
 
 
@@ -106,7 +115,7 @@ def _weight(text: str) -> tuple[str, float]:
         return name, float(factor if name and equals else "")
     except ValueError:
         raise typer.BadParameter(
-            f"expected a reward term and its factor, such as touch=2, got {text!r}"
+            _("expected a reward term and its factor, such as touch=2, got {text!r}", text=text)
         ) from None
 
 
@@ -123,13 +132,23 @@ def _summary(result: "Trained") -> str:
     best, folder = result.best, result.run.folder
     is_small = result.run.config().trainer == "small"
     kept = result.run.best_network if is_small else result.run.best
-    success = "" if best.success is None else f"success {best.success:.0%}, "
-    why = "interrupted" if result.interrupted else "good enough" if result.enough else "done"
-    return (
-        f"{why} after {result.steps} steps; kept {kept}: {success}"
-        f"reward {best.reward:.2f} (after {best.steps} steps)\n"
-        f"evaluate it: ai4u-edu evaluate {result.run.config().scene} --brain {folder}\n"
-        f"export it:   ai4u-edu export {folder} --out policy.onnx"
+    reward = _("reward {reward:.2f} (after {steps} steps)", reward=best.reward, steps=best.steps)
+    if best.success is not None:
+        success = _("success {success:.0%}", success=best.success)
+        reward = _("{success}, {reward}", success=success, reward=reward)
+    why = _("interrupted") if result.interrupted else _("done")
+    if result.enough and not result.interrupted:
+        why = _("good enough")
+    return _(
+        "{why} after {steps} steps; kept {kept}: {result}\n"
+        "evaluate it: {evaluate}\n"
+        "export it:   {export}",
+        why=why,
+        steps=result.steps,
+        kept=str(kept),
+        result=reward,
+        evaluate=f"ai4u-edu evaluate {result.run.config().scene} --brain {folder}",
+        export=f"ai4u-edu export {folder} --out policy.onnx",
     )
 
 
@@ -171,8 +190,11 @@ def evaluate(
         where = next((each.scene for each in entrants if each.scene), "")
         if not where:
             raise SetupError(
-                f"in which scene is {drivers[0]} to drive? Expected: ai4u-edu evaluate SCENE "
-                f"--brain {drivers[0]}"
+                _(
+                    "in which scene is {driver} to drive? Expected: "
+                    "ai4u-edu evaluate SCENE --brain {driver}",
+                    driver=drivers[0],
+                )
             )
         loaded = Scene.load(where)
     seeds = seeds_from(seed, episodes)
@@ -182,7 +204,16 @@ def evaluate(
         done = _evaluated_on(engine, address, drivers, where, seeds, own_blocks)
     if json_file is None or str(json_file) != "-":
         Console().print(
-            f"{loaded.description.name}: {episodes} episodes, seeds {seed}..{seed + episodes - 1}",
+            translate(
+                ngettext(
+                    "{name}: {n} episode, seed {seed}",
+                    "{name}: {n} episodes, seeds {seed}..{last}",
+                    episodes,
+                    name=loaded.description.name,
+                    seed=seed,
+                    last=seed + episodes - 1,
+                )
+            ),
             highlight=False,
         )
         Console().print(evaluation_table(done))
@@ -219,12 +250,16 @@ def _scene_and_drivers(
     where = (scenes or [""])[0]
     if not drivers:
         raise SetupError(
-            f"who is to drive? Expected: ai4u-edu evaluate {where or 'SCENE'} --brain DRIVER"
+            _(
+                "who is to drive? Expected: ai4u-edu evaluate {scene} --brain DRIVER",
+                scene=where or "SCENE",
+            )
         )
     if len(scenes) > 1:
-        raise SetupError(f"expected one scene, got {', '.join(scenes)}")
+        raise SetupError(_("expected one scene, got {scenes}", scenes=", ".join(scenes)))
     right = " ".join([*scenes, *(f"--brain {driver}" for driver in drivers)])
-    typer.echo(f"hint: as in play, the scene comes first: ai4u-edu evaluate {right}", err=True)
+    command = f"ai4u-edu evaluate {right}"
+    say(_("hint: as in play, the scene comes first: {command}", command=command), err=True)
     return where, drivers
 
 
@@ -277,8 +312,11 @@ def vary(
     present = v.parameter_named(loaded, parameter)
     if not values:
         raise SetupError(
-            f"expected the values of {present.name} to try, as in --values 1,2,4; it is "
-            f"{present.value} now"
+            _(
+                "expected the values of {name} to try, as in --values 1,2,4; it is {value} now",
+                name=present.name,
+                value=str(present.value),
+            )
         )
     numbers, seeds = v.parse_values(values), seeds_from(seed, episodes)
     driven, who = v.with_driver(loaded, who, agent)
@@ -297,9 +335,15 @@ def vary(
             tell=bar.add,
         )
     if csv_file is None or str(csv_file) != "-":
-        typer.echo(
-            f"{loaded.description.name}: {episodes} episodes with each value, the same starts "
-            f"(seeds {seed}..{seed + episodes - 1})"
+        say(
+            ngettext(
+                "{name}: {n} episode with each value, the same start (seed {seed})",
+                "{name}: {n} episodes with each value, the same starts (seeds {seed}..{last})",
+                episodes,
+                name=loaded.description.name,
+                seed=seed,
+                last=seed + episodes - 1,
+            )
         )
         Console().print(v.Tried(varied, rows).table(), highlight=False)
     if csv_file is not None:
@@ -326,14 +370,16 @@ def export(
     if checkpoints is not None:
         files = export_checkpoints(model, checkpoints, with_critic=with_critic)
         scene = run_of(model).config().scene
-        typer.echo(
-            f"{len(files)} networks in {checkpoints}\n"
-            f"compare them:  ai4u-edu play {scene} --offer {checkpoints}"
+        say(
+            _(
+                "{networks} in {folder}\ncompare them:  {command}",
+                networks=ngettext("{n} network", "{n} networks", len(files)),
+                folder=str(checkpoints),
+                command=f"ai4u-edu play {scene} --offer {checkpoints}",
+            )
         )
         return
     path = exported(model, out, with_critic=with_critic)
     name = run_of(model).config().scene
-    typer.echo(
-        f"{path}: {path.stat().st_size / 1000:.0f} kB\n"
-        f"let it drive:  ai4u-edu play {name} --brain {path}"
-    )
+    typer.echo(f"{path}: {path.stat().st_size / 1000:.0f} kB")
+    let_it_drive(name, path)

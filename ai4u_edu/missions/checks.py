@@ -179,7 +179,13 @@ class ReachesGoal(Check):
     @model_validator(mode="after")
     def _can_be_reached(self) -> Self:
         if self.of is not None and self.times > self.of:
-            raise ValueError(f"expected times of at most {self.of}, as in of, got {self.times}")
+            raise ValueError(
+                _(
+                    "expected times of at most {of}, as in of, got {times}",
+                    of=self.of,
+                    times=self.times,
+                )
+            )
         return self
 
     def follow(self) -> Follow:
@@ -240,7 +246,11 @@ class IsPaid(Check):
         names = [reward.name for reward in agent.rewards]
         if self.reward and self.reward not in names:
             raise SetupError(
-                f"the robot gets no reward {self.reward!r}; {suggest(self.reward, names)}"
+                _(
+                    "the robot gets no reward {reward!r}; {hint}",
+                    reward=self.reward,
+                    hint=suggest(self.reward, names),
+                )
             )
 
 
@@ -256,7 +266,7 @@ class Range(Description):
     @model_validator(mode="after")
     def _has_a_limit(self) -> Self:
         if self.above is None and self.below is None:
-            raise ValueError("expected above, below or both, got none")
+            raise ValueError(_("expected above, below or both, got none"))
         return self
 
     def has(self, decision: Decision) -> bool:
@@ -429,7 +439,9 @@ class Chooses(Check):
         options = info.data.get("options", [right])
         if right not in options:
             hint = suggest(right, options)
-            raise ValueError(f"expected one of the options, got {right!r}; {hint}")
+            raise ValueError(
+                _("expected one of the options, got {right!r}; {hint}", right=right, hint=hint)
+            )
         return right
 
     def follow(self) -> Follow:
@@ -477,12 +489,19 @@ class Builds(Check):
     @model_validator(mode="after")
     def _looks_at_something(self) -> Self:
         if not (self.tag or self.block or self.kind):
-            raise ValueError("expected a tag, a block or a kind of blocks to look for, got none")
+            raise ValueError(_("expected a tag, a block or a kind of blocks to look for, got none"))
         known = Block.types[self.block].parameters() if self.block in Block.types else self.values
         for name in self.values:
             if name not in known:
                 hint = suggest(name, known)
-                raise ValueError(f"{self.block} has no parameter {name!r}; {hint}")
+                raise ValueError(
+                    _(
+                        "{block} has no parameter {name!r}; {hint}",
+                        block=self.block,
+                        name=name,
+                        hint=hint,
+                    )
+                )
         return self
 
     def follow(self) -> Follow:
@@ -582,11 +601,19 @@ def _find(what: str, agent: BasicAgent) -> None:
     distances = distances_of(agent)
     known = ["speed", "turning", *(f"distance {side}" for side in distances), *agent.percept]
     if key not in known or (bracket and not part.isdigit()):
-        raise SetupError(f"the robot senses no {what!r}; {suggest(what, known)}")
+        raise SetupError(
+            _("the robot senses no {what!r}; {hint}", what=what, hint=suggest(what, known))
+        )
     if key not in agent.percept:
         return
     reading = agent.percept[key]
     size = np.asarray(reading).size
     if isinstance(reading, str | tuple) or int(part or 0) >= size or (size > 1 and not part):
-        hint = f"write {key}[0] to {key}[{size - 1}]" if size > 1 else "choose another sensor"
-        raise SetupError(f"{what!r} is not one number of what the robot senses; {hint}")
+        hint = (
+            _("write {key}[0] to {key}[{last}]", key=key, last=size - 1)
+            if size > 1
+            else _("choose another sensor")
+        )
+        raise SetupError(
+            _("{what!r} is not one number of what the robot senses; {hint}", what=what, hint=hint)
+        )

@@ -17,8 +17,9 @@ from pydantic import (
     model_validator,
 )
 
-from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest
+from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest, text_of
 from ai4u_edu.base.parameters import ParameterProblem, explain
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.missions.checks import AnyCheck, Chooses, Holds, Reads, Solves, Text
 from ai4u_edu.missions.events import Driver
 from ai4u_edu.page.editing.scene_pictures import template_names
@@ -53,7 +54,9 @@ network in the tab "Teach"."""
 
 def _known_control(name: str) -> str:
     if name not in CONTROLS:
-        raise ValueError(f"no control is called {shown(name)}; {suggest(name, CONTROLS)}")
+        raise ValueError(
+            _("no control is called {name}; {hint}", name=shown(name), hint=suggest(name, CONTROLS))
+        )
     return name
 
 
@@ -132,7 +135,7 @@ class Mission(Description):
     @model_validator(mode="after")
     def _has_an_exercise(self) -> Self:
         if not self.exercise and any(isinstance(step.check, Solves) for step in self.steps):
-            raise ValueError("a step of type solves needs exercise: NUMBER in the mission")
+            raise ValueError(_("a step of type solves needs exercise: NUMBER in the mission"))
         return self
 
     @field_validator("scene")
@@ -140,7 +143,9 @@ class Mission(Description):
     def _is_known(cls, scene: str) -> str:
         known = [*Scene.names(), *EMPTY_SCENES]
         if scene not in known:
-            raise ValueError(f"no scene is called {scene!r}; {suggest(scene, known)}")
+            raise ValueError(
+                _("no scene is called {scene!r}; {hint}", scene=scene, hint=suggest(scene, known))
+            )
         return scene
 
 
@@ -191,7 +196,11 @@ class Missions(NamedTuple):
         """
         if name not in self.by_name:
             raise SetupError(
-                f"no mission is called {name[:80]!r}; {suggest(name[:80], self.by_name)}"
+                _(
+                    "no mission is called {name!r}; {hint}",
+                    name=name[:80],
+                    hint=suggest(name[:80], self.by_name),
+                )
             )
         return self.by_name[name]
 
@@ -290,13 +299,20 @@ def _with_folder(folder: Path, files: Sequence[Path]) -> Missions:
     for path in files[:MAX_FILES]:
         try:
             if path.stem in library:
-                raise SceneError(f"{path.name}: a mission of this name exists; rename the file")
+                raise SceneError(
+                    _("{name}: a mission of this name exists; rename the file", name=path.name)
+                )
             found[path.stem] = read_mission(_text_of(path), path.name)
         except AI4UError as error:
             problems.append(str(error))
     names = {*library, *found}
     problems += [
-        f"{name}.yaml: next: no mission is called {each.next!r}; {suggest(each.next, names)}"
+        _(
+            "{name}.yaml: next: no mission is called {next!r}; {hint}",
+            name=name,
+            next=each.next,
+            hint=suggest(each.next, names),
+        )
         for name, each in found.items()
         if each.next and each.next not in names
     ]
@@ -308,13 +324,23 @@ def _text_of(path: Path) -> str:
         with path.open("rb") as file:
             data = file.read(MAX_MISSION_BYTES + 1)
     except OSError as error:
-        raise SceneError(f"{path.name}: can't be read: {error.strerror}") from None
+        raise SceneError(
+            _("{name}: can't be read: {strerror}", name=path.name, strerror=str(error.strerror))
+        ) from None
     if len(data) > MAX_MISSION_BYTES:
-        raise SceneError(f"{path.name}: expected at most {MAX_MISSION_BYTES} bytes, got more")
+        raise SceneError(
+            _(
+                "{name}: expected at most {most} bytes, got more",
+                name=path.name,
+                most=MAX_MISSION_BYTES,
+            )
+        )
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise SceneError(f"{path.name}: expected UTF-8 text; save it as UTF-8") from None
+        raise SceneError(
+            _("{name}: expected UTF-8 text; save it as UTF-8", name=path.name)
+        ) from None
 
 
 def _unfit(mission: Mission) -> Sequence[ParameterProblem]:
@@ -329,7 +355,7 @@ def _unfit(mission: Mission) -> Sequence[ParameterProblem]:
         try:
             check.fit(agent)
         except SetupError as error:
-            problems.append(ParameterProblem(path, str(error)))
+            problems.append(ParameterProblem(path, text_of(error)))
     return problems
 
 

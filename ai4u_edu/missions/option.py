@@ -258,7 +258,7 @@ class MissionOption:
     async def _answer(self, page: Page, command: AnswerMission) -> Answer:
         chosen = self._chosen(page.view)
         if chosen is None:
-            raise SetupError("no mission is open in this page; open one on the map")
+            raise SetupError(_("no mission is open in this page; open one on the map"))
         run, check, answer = chosen.run, chosen.run.step.check, command.answer
         if isinstance(check, Chooses):  # the page shows and sends its own language
             shown = {translate(library_text(option)): option for option in check.options}
@@ -269,7 +269,7 @@ class MissionOption:
     async def _judge(self, page: Page, command: JudgeFunction) -> Answer:
         chosen = self._chosen(page.view)
         if chosen is None or not isinstance(chosen.run.step.check, Solves):
-            raise SetupError("this step has no function to check; open one that has")
+            raise SetupError(_("this step has no function to check; open one that has"))
         exercise = chosen.run.mission.exercise
         # it imports the lesson, and some judges drive a robot
         if exercise in BUILT and self._editor is not None:
@@ -284,7 +284,7 @@ class MissionOption:
         chosen = self._chosen(page.view)
         calls = None if chosen is None else self._calls.get(chosen.run)
         if chosen is None or calls is None or not calls.arguments:
-            raise SetupError("no function is being checked; press Check again")
+            raise SetupError(_("no function is being checked; press Check again"))
         await asyncio.to_thread(calls.answer, command.value)
         return await self._called(page, chosen.run, calls)
 

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 
 from ai4u_edu.base.errors import suggest
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.ai4u import Kind, ReplyCommand, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
 from ai4u_edu.wire.validation import WireError, shown
@@ -248,8 +249,13 @@ def _input(reading: ReadingLike) -> ModelInput:
         low, high = float(space.low.min()), float(space.high.max())
     else:
         raise WireError(
-            f"sensor {reading.name!r}: expected a Box or Discrete space, got {space}; AI4U's "
-            "protocol has no words for others, so set its is_input to False"
+            _(
+                "sensor {name!r}: expected a Box or Discrete space, "
+                "got {space}; AI4U's protocol has no words for others, "
+                "so set its is_input to False",
+                name=reading.name,
+                space=str(space),
+            )
         )
     if reading.kind == "simage":
         height, width, *channels = shape

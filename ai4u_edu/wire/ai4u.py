@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.validation import WireError, shown
 
 MAX_DATAGRAM_BYTES = 65_507
@@ -91,9 +92,22 @@ def packer(name: str, kind: Kind) -> Callable[[Any], bytes]:
         try:
             text = write(value).encode()
         except (TypeError, ValueError, OverflowError) as error:
-            raise WireError(f"field {name!r}: {shown(value)} is no {kind.name}") from error
+            raise WireError(
+                _(
+                    "field {name!r}: {value} is no {kind}",
+                    name=name,
+                    value=shown(value),
+                    kind=kind.name,
+                )
+            ) from error
         if len(encoded) > 9_999 or len(text) > 99_999_999:
-            raise WireError(f"field {shown(name)}: expected a value that fits, got {len(text)}")
+            raise WireError(
+                _(
+                    "field {name}: expected a value that fits, got {count}",
+                    name=shown(name),
+                    count=len(text),
+                )
+            )
         return b"%s%8d%s" % (head, len(text), text)
 
     return pack
@@ -104,8 +118,13 @@ def joined(parts: Sequence[bytes]) -> bytes:
     request = b"%4d%s" % (len(parts), b"".join(parts))
     if len(request) > MAX_DATAGRAM_BYTES:
         raise WireError(
-            f"expected a request of at most {MAX_DATAGRAM_BYTES} bytes, got {len(request)}: make "
-            "sensors that read much smaller, or switch them off (is_active=False)"
+            _(
+                "expected a request of at most {most} "
+                "bytes, got {count}: make sensors that read much "
+                "smaller, or switch them off (is_active=False)",
+                most=MAX_DATAGRAM_BYTES,
+                count=len(request),
+            )
         )
     return request
 
@@ -120,20 +139,39 @@ def decode_request(data: bytes) -> list[Field]:
     [Field(name='eyes', kind=<Kind.FLOATS: 5>, value=array([0.5, 1. ]))]
     """
     if len(data) > MAX_DATAGRAM_BYTES:
-        raise WireError(f"expected at most {MAX_DATAGRAM_BYTES} bytes, got {len(data)}")
-    count, at = _size(data, 0, 4, "the number of fields")
+        raise WireError(
+            _(
+                "expected at most {most} bytes, got {count}",
+                most=MAX_DATAGRAM_BYTES,
+                count=len(data),
+            )
+        )
+    count, at = _size(data, 0, 4, _("the number of fields"))
     fields = []
-    for _ in range(count):
-        size, at = _size(data, at, 4, "the length of a name")
-        name, at = _words(data, at, size, "a name")
-        kind, at = _size(data, at, 1, f"the type of {shown(name)}")
+    for _number in range(count):
+        size, at = _size(data, at, 4, _("the length of a name"))
+        name, at = _words(data, at, size, _("a name"))
+        kind, at = _size(data, at, 1, _("the type of {name}", name=shown(name)))
         if kind >= len(Kind):
-            raise WireError(f"{shown(name)}: expected a type from 0 to {len(Kind) - 1}, got {kind}")
-        size, at = _size(data, at, 8, f"the length of {shown(name)}")
-        text, at = _words(data, at, size, f"the value of {shown(name)}")
+            raise WireError(
+                _(
+                    "{name}: expected a type from 0 to {last}, got {kind}",
+                    name=shown(name),
+                    last=len(Kind) - 1,
+                    kind=kind,
+                )
+            )
+        size, at = _size(data, at, 8, _("the length of {name}", name=shown(name)))
+        text, at = _words(data, at, size, _("the value of {name}", name=shown(name)))
         fields.append(Field(name, Kind(kind), _value(name, Kind(kind), text)))
     if at != len(data):
-        raise WireError(f"expected the end after {count} fields, got {len(data) - at} bytes more")
+        raise WireError(
+            _(
+                "expected the end after {count} fields, got {more} bytes more",
+                count=count,
+                more=len(data) - at,
+            )
+        )
     return fields
 
 
@@ -198,7 +236,7 @@ def number(text: str) -> float:
     """
     text = text.strip(" ")
     if not _NUMBER.fullmatch(text):
-        raise WireError(f"expected a number, got {shown(text)}")
+        raise WireError(_("expected a number, got {text}", text=shown(text)))
     return float(text)
 
 
@@ -222,13 +260,20 @@ def _value(name: str, kind: Kind, text: str) -> Any:
             case Kind.TEXTS:
                 return _parts(text)
     except (KeyError, WireError, binascii.Error):
-        raise WireError(f"{shown(name)}: expected {kind.name}, got {shown(text)}") from None
+        raise WireError(
+            _(
+                "{name}: expected {kind}, got {text}",
+                name=shown(name),
+                kind=kind.name,
+                text=shown(text),
+            )
+        ) from None
 
 
 def _whole(text: str) -> int:
     text = text.strip(" ")
     if not _WHOLE.fullmatch(text):
-        raise WireError(f"expected a whole number, got {shown(text)}")
+        raise WireError(_("expected a whole number, got {text}", text=shown(text)))
     return int(text)
 
 
@@ -239,18 +284,34 @@ def _parts(text: str) -> list[str]:
 def _size(data: bytes, at: int, digits: int, what: str) -> tuple[int, int]:
     part = data[at : at + digits]
     if len(part) != digits or not _SIZE.fullmatch(part):
-        raise WireError(f"expected {what} in {digits} characters, got {shown(part)}")
+        raise WireError(
+            _(
+                "expected {what} in {digits} characters, got {part}",
+                what=what,
+                digits=digits,
+                part=shown(part),
+            )
+        )
     return int(part), at + digits
 
 
 def _words(data: bytes, at: int, size: int, what: str) -> tuple[str, int]:
     part = data[at : at + size]
     if len(part) != size:
-        raise WireError(f"expected {size} bytes for {what}, got {len(part)}")
+        raise WireError(
+            _(
+                "expected {size} bytes for {what}, got {count}",
+                size=size,
+                what=what,
+                count=len(part),
+            )
+        )
     try:
         return part.decode(), at + size
     except UnicodeDecodeError:
-        raise WireError(f"expected UTF-8 for {what}, got {shown(part)}") from None
+        raise WireError(
+            _("expected UTF-8 for {what}, got {part}", what=what, part=shown(part))
+        ) from None
 
 
 # -- replies ---------------------------------------------------------------------------------------
@@ -281,11 +342,17 @@ def decode_reply(data: bytes) -> list[ReplyCommand]:
     ai4u_edu.wire.validation.WireError: 'move': expected 2 arguments as it says, got 1
     """
     if len(data) > MAX_DATAGRAM_BYTES:
-        raise WireError(f"expected at most {MAX_DATAGRAM_BYTES} bytes, got {len(data)}")
+        raise WireError(
+            _(
+                "expected at most {most} bytes, got {count}",
+                most=MAX_DATAGRAM_BYTES,
+                count=len(data),
+            )
+        )
     try:
         text = data.decode().strip()
     except UnicodeDecodeError:
-        raise WireError(f"expected a reply in UTF-8, got {shown(data)}") from None
+        raise WireError(_("expected a reply in UTF-8, got {data}", data=shown(data))) from None
     if text == HALT:
         return [ReplyCommand(HALT)]
     return [_order(part) for part in text.split("@")]
@@ -296,10 +363,19 @@ def _order(text: str) -> ReplyCommand:
     if name and rest and rest[0] == str(len(rest) - 1):  # the common case
         return ReplyCommand(name, tuple(rest[1:]))
     if not name or not rest or not re.fullmatch(r"\d{1,5}", rest[0], re.A):
-        raise WireError(f"expected a command as in 'move;2;1.0;0.5', got {shown(text)}")
+        raise WireError(
+            _("expected a command as in 'move;2;1.0;0.5', got {text}", text=shown(text))
+        )
     count, args = int(rest[0]), rest[1:]
     if not count and args == [""]:
         args = []  # the package writes a semicolon after a 0
     if count != len(args):
-        raise WireError(f"{shown(name)}: expected {count} arguments as it says, got {len(args)}")
+        raise WireError(
+            _(
+                "{name}: expected {count} arguments as it says, got {got}",
+                name=shown(name),
+                count=count,
+                got=len(args),
+            )
+        )
     return ReplyCommand(name, tuple(args))

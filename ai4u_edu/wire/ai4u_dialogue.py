@@ -30,6 +30,7 @@ from collections.abc import Sequence
 from enum import Enum, StrEnum
 from typing import NamedTuple
 
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.ai4u import (
     HALT,
     Field,
@@ -216,9 +217,21 @@ class AI4UDialogue:
         name = orders[0].name
         kind = _KINDS.get(name, ReplyKind.ACTION)
         if kind not in VALID_KINDS[self.phase]:
-            raise WireError(f"nothing that can be said while {self.phase.value}: {name!r}")
+            raise WireError(
+                _(
+                    "nothing that can be said while {phase}: {name!r}",
+                    phase=self.phase.value,
+                    name=name,
+                )
+            )
         if kind is ReplyKind.CONFIGURED and ReplyCommand("id", (self.agent,)) not in orders[1:]:
-            raise WireError(f"expected an answer for agent {self.agent!r}, got {orders[1:]}")
+            raise WireError(
+                _(
+                    "expected an answer for agent {agent!r}, got {orders}",
+                    agent=self.agent,
+                    orders=str(orders[1:]),
+                )
+            )
         self.in_flight, self._last = False, name
         if self.phase is SessionPhase.CONNECTING:
             self.phase, self._first = SessionPhase.HANDSHAKE, AI4UReply(kind, orders)

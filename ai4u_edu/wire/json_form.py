@@ -20,7 +20,8 @@ import msgspec
 import numpy as np
 import numpy.typing as npt
 
-from ai4u_edu.base.errors import suggest
+from ai4u_edu.base.errors import suggest, text_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire import native
 from ai4u_edu.wire.message_codec import Record
 from ai4u_edu.wire.texts import SEVERAL, pack_texts, unpack_texts
@@ -76,11 +77,22 @@ class JsonForm:
             said = msgspec.json.decode(text)
         except Exception as error:  # any error is due to the bytes, such as nesting too deep
             absent = f"; {_ABSENT}" if b"NaN" in text or b"Infinity" in text else ""
-            raise WireError(f"expected JSON, got {shown(text)} ({error}){absent}") from None
+            raise WireError(
+                _(
+                    "expected JSON, got {text} ({error}){absent}",
+                    text=shown(text),
+                    error=text_of(error),
+                    absent=absent,
+                )
+            ) from None
         kind = said.pop(_TYPE, None) if type(said) is dict else None
         if type(kind) is not str or kind not in _MESSAGES:
             raise WireError(
-                f"expected an object with a type ({', '.join(_MESSAGES)}), got {shown(kind)}"
+                _(
+                    "expected an object with a type ({messages}), got {kind}",
+                    messages=", ".join(_MESSAGES),
+                    kind=shown(kind),
+                )
             )
         if kind == "percept" and _READINGS in said:
             said |= self._block(said.pop(_READINGS))
@@ -91,7 +103,11 @@ class JsonForm:
             frame = msgspec.msgpack.encode((kind, *parts))
         except (OverflowError, RecursionError, ValueError) as error:
             raise WireError(
-                f"{kind}: expected numbers of up to 64 bits, and text ({error})"
+                _(
+                    "{kind}: expected numbers of up to 64 bits, and text ({error})",
+                    kind=kind,
+                    error=text_of(error),
+                )
             ) from None
         if kind == "welcome":
             message = native.decode(frame, native.MAX_WORLD_FRAME_BYTES)
@@ -102,7 +118,13 @@ class JsonForm:
         """Return the fields of a percept in which msgpack has its readings."""
         if type(readings) is not dict or readings.keys() != {each.key for each in self._readings}:
             keys = ", ".join(each.key for each in self._readings)
-            raise WireError(f"readings: expected an object with {keys}, got {shown(readings)}")
+            raise WireError(
+                _(
+                    "readings: expected an object with {keys}, got {readings}",
+                    keys=keys,
+                    readings=shown(readings),
+                )
+            )
         data = bytearray()
         texts: dict[int, str] = {}
         for each in self._readings:
@@ -116,7 +138,12 @@ class JsonForm:
             numbers = _array(each.key, value, each.dtype).reshape(-1)
             if numbers.size != math.prod(each.shape):
                 raise WireError(
-                    f"readings: {each.key!r}: expected the shape {each.shape}, got {shown(value)}"
+                    _(
+                        "readings: {key!r}: expected the shape {shape}, got {value}",
+                        key=each.key,
+                        shape=str(each.shape),
+                        value=shown(value),
+                    )
                 )
             packed = numbers.tobytes()
             data.extend(bytes(max(0, each.offset + len(packed) - len(data))))
@@ -141,7 +168,14 @@ def _plain(name: str, value: Any) -> Any:
         case Record():
             return _object(value)
         case float() if not math.isfinite(value):
-            raise WireError(f"{name}: expected a finite number, got {value}; {_ABSENT}")
+            raise WireError(
+                _(
+                    "{name}: expected a finite number, got {value}; {absent}",
+                    name=name,
+                    value=value,
+                    absent=_ABSENT,
+                )
+            )
         case tuple() | list():
             return [_plain(name, each) for each in value]
         case Mapping():
@@ -165,15 +199,35 @@ def _value(reading: native.Reading, percept: native.Percept) -> Any:
             text = percept.texts[reading.offset]
             return list(unpack_texts(text)) if reading.sensor_type == SEVERAL else text
         except (IndexError, ValueError) as error:
-            raise WireError(f"{reading.key}: expected text in the percept ({error})") from None
+            raise WireError(
+                _(
+                    "{key}: expected text in the percept ({error})",
+                    key=reading.key,
+                    error=text_of(error),
+                )
+            ) from None
     count = math.prod(reading.shape)
     size = count * np.dtype(reading.dtype).itemsize
     numbers = _unpacked(reading, percept.data[reading.offset : reading.offset + size])
     if numbers.size != count:
-        raise WireError(f"{reading.key}: expected {count} numbers, got {numbers.size}")
+        raise WireError(
+            _(
+                "{key}: expected {count} numbers, got {size}",
+                key=reading.key,
+                count=count,
+                size=numbers.size,
+            )
+        )
     if not np.isfinite(numbers).all():
         text = shown(numbers.tolist())
-        raise WireError(f"{reading.key}: expected finite numbers, got {text}; {_ABSENT}")
+        raise WireError(
+            _(
+                "{key}: expected finite numbers, got {text}; {absent}",
+                key=reading.key,
+                text=text,
+                absent=_ABSENT,
+            )
+        )
     return numbers.reshape(reading.shape).tolist()
 
 
@@ -181,7 +235,14 @@ def _unpacked(reading: native.Reading, data: bytes) -> npt.NDArray[Any]:
     try:
         return np.frombuffer(data, reading.dtype)
     except ValueError as error:
-        raise WireError(f"{reading.key}: expected numbers of {reading.dtype} ({error})") from None
+        raise WireError(
+            _(
+                "{key}: expected numbers of {dtype} ({error})",
+                key=reading.key,
+                dtype=reading.dtype,
+                error=text_of(error),
+            )
+        ) from None
 
 
 def _fields(kind: type[Record], where: str, said: Mapping[str, Any]) -> list[Any]:
@@ -190,10 +251,24 @@ def _fields(kind: type[Record], where: str, said: Mapping[str, Any]) -> list[Any
     names = [field.name for field in known]
     for name in said:
         if name not in names:
-            raise WireError(f"{where}: no field is called {shown(name)}; {suggest(name, names)}")
+            raise WireError(
+                _(
+                    "{where}: no field is called {name}; {hint}",
+                    where=where,
+                    name=shown(name),
+                    hint=suggest(name, names),
+                )
+            )
     missing = [field.name for field in known if field.required and field.name not in said]
     if missing:
-        raise WireError(f"{where}: expected the fields {', '.join(names)}; missing: {missing[0]}")
+        raise WireError(
+            _(
+                "{where}: expected the fields {names}; missing: {missing}",
+                where=where,
+                names=", ".join(names),
+                missing=missing[0],
+            )
+        )
     values = []
     for field in known:
         value = said.get(field.name, field.default)
@@ -207,13 +282,17 @@ def _fields(kind: type[Record], where: str, said: Mapping[str, Any]) -> list[Any
 
 def _parts(name: str, value: Any) -> list[Any]:
     if type(value) is not list or not all(type(each) is dict for each in value):
-        raise WireError(f"{name}: expected a list of objects, got {shown(value)}")
+        raise WireError(
+            _("{name}: expected a list of objects, got {value}", name=name, value=shown(value))
+        )
     return [_fields(_PARTS[name], name, each) for each in value]
 
 
 def _packed_bounds(kind: type[Record], name: str, value: Any, dtype: str) -> Any:
     if type(value) is not list:
-        raise WireError(f"{name}: expected a list of numbers, got {shown(value)}")
+        raise WireError(
+            _("{name}: expected a list of numbers, got {value}", name=name, value=shown(value))
+        )
     numbers = [_BOUNDS[name] if each is None else each for each in value]
     if kind is native.Output:
         return numbers
@@ -232,11 +311,24 @@ def _array(name: str, value: Any, dtype: str, *, may_be_infinite: bool = False) 
             return array.astype(dtype)
     except (TypeError, ValueError, OverflowError):
         pass
-    raise WireError(f"{name}: expected numbers, got {shown(value)}; {_ABSENT}")
+    raise WireError(
+        _(
+            "{name}: expected numbers, got {value}; {absent}",
+            name=name,
+            value=shown(value),
+            absent=_ABSENT,
+        )
+    )
 
 
 def _refuse_null(values: Any) -> None:
     """Raise a WireError for an action with a null, which other languages make of NaN."""
     for name, numbers in values.items() if type(values) is dict else ():
         if type(numbers) is list and None in numbers:
-            raise WireError(f"values: {shown(name)}: expected finite numbers, got null; {_ABSENT}")
+            raise WireError(
+                _(
+                    "values: {name}: expected finite numbers, got null; {absent}",
+                    name=shown(name),
+                    absent=_ABSENT,
+                )
+            )

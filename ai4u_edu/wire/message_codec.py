@@ -12,6 +12,7 @@ import msgspec
 from msgspec import Struct
 
 from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.wire.validation import WireError, find_wrong_field, shown
 
 
@@ -62,7 +63,13 @@ class MessageCodec(Generic[M]):
             WireError: there is no valid message in it. No other error is raised for any bytes.
         """
         if len(frame) > max_bytes:
-            raise WireError(f"expected at most {max_bytes} bytes, got {len(frame)}")
+            raise WireError(
+                _(
+                    "expected at most {most} bytes, got {count}",
+                    most=max_bytes,
+                    count=len(frame),
+                )
+            )
         try:
             return self._decoder.decode(frame)
         except Exception as error:  # any error is due to the bytes

@@ -3,8 +3,9 @@
 import pytest
 
 from ai4u_edu import Block, Sensor
-from ai4u_edu.base.errors import NameNotFoundError
+from ai4u_edu.base.errors import NameNotFoundError, text_of
 from ai4u_edu.blocks.docs import built_in_blocks, lesson_page, summary
+from ai4u_edu.locale import Catalogue, reader
 from ai4u_edu.scenes.serialization import KINDS
 
 BLOCKS = [cls for kind in built_in_blocks().values() for cls in kind]
@@ -64,6 +65,17 @@ def test_exactly() -> None:
     assert lines.count("max_turn 20.0 0..10000 rad/s Largest turning speed that is read.") == 1
     needed = lesson_page("BearingSensor")
     assert "target                (needed)  text" in needed
+
+
+def test_the_frame_of_a_page_is_in_the_readers_language() -> None:
+    with reader("pt_BR"):
+        page = " ".join(lesson_page("BearingSensor").split())
+    assert "parâmetro padrão intervalo" in page
+    assert "target (obrigatório) texto" in page
+    with pytest.raises(NameNotFoundError) as raised:
+        lesson_page("Camera")
+    said = Catalogue("pt_BR").translate(text_of(raised.value))
+    assert "Camera do AI4U se chama LocalGridSensor aqui. Não há câmera" in said
 
 
 def test_an_unknown_block() -> None:

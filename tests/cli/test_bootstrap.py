@@ -174,6 +174,16 @@ def test_a_folder_without_our_project_is_refused(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("language", ["pt_BR", "pt", "pt-br", "pt_BR.UTF-8"])
+def test_the_setup_speaks_the_language_of_the_terminal(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, language: str
+) -> None:
+    monkeypatch.setenv("AI4U_LANG", language)
+    assert message(tmp_path).startswith(f"Era esperado o pyproject.toml do AI4U Edu em {tmp_path},")
+    monkeypatch.setattr(sys, "argv", ["ai4u_edu", "--lang", "en", "play"])
+    assert message(tmp_path).startswith("Expected AI4U Edu's pyproject.toml")
+
+
 def test_a_failing_pip_is_quoted_and_tried_again(made: Path) -> None:
     (made / "pyproject.toml").write_text(PYPROJECT.replace('"backend"', '"broken"'))
     for _ in range(2):

@@ -63,6 +63,13 @@ def test_an_error_of_a_scene_file_is_in_the_language(tmp_path: Path) -> None:
     assert "úńkńówń páŕámétéŕ" in done.stderr
 
 
+def test_a_refusal_has_the_usage_and_the_status_of_one() -> None:
+    done = run("plya", LANG="pt_BR.UTF-8")
+    assert done.returncode == 2
+    assert "Uso: " in done.stderr
+    assert "Você quis dizer 'play', 'replay'?" in done.stderr
+
+
 def test_errors_are_said_in_the_language(tmp_path: Path) -> None:
     done = run("tournament", "verify", "--lang", PSEUDO)
     english = "expected one folder: ai4u-edu tournament verify FOLDER"

@@ -112,7 +112,13 @@ class _NoRooms:
 
     async def enter(self, room: str, scene: str) -> RoomAddress:
         """Refuse to start a room."""
-        raise RoomError(f"expected a world on the student's own server, got {room!r}, {scene!r}")
+        raise RoomError(
+            _(
+                "expected a world on the student's own server, got {room!r}, {scene!r}",
+                room=room,
+                scene=scene,
+            )
+        )
 
     def in_use(self, room: str) -> AbstractContextManager[None]:  # noqa: ARG002 - of a protocol
         """Do nothing."""

@@ -12,6 +12,8 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.learn.training.episode import EpisodeStats, wilson
 from ai4u_edu.learn.training.policies import Entrant, expect_here
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext, translate
 from ai4u_edu.scenes import Scene
 
 DEFAULT_MAX_DECISIONS = 10_000
@@ -63,38 +65,42 @@ class Evaluation:
     @property
     def cells(self) -> dict[str, str]:
         """Return a table's cells by heading."""
-        interval = self.interval
         return {
-            "who": self.name,
-            "success": "-" if self.success is None else f"{self.success:.0%}",
-            "95% between": (
-                "-" if interval is None else f"{100 * interval[0]:.1f} and {100 * interval[1]:.1f}%"
-            ),
-            "return": f"{np.mean(self.rewards):.2f} ± {np.std(self.rewards):.2f}",
-            "length": f"{np.mean(self.lengths):.1f} ± {np.std(self.lengths):.1f}",
+            _("who"): self.name,
+            _("success"): "-" if self.success is None else f"{self.success:.0%}",
+            _("95% between"): "-" if self.interval is None else between(*self.interval),
+            _("return"): f"{np.mean(self.rewards):.2f} ± {np.std(self.rewards):.2f}",
+            _("length"): f"{np.mean(self.lengths):.1f} ± {np.std(self.lengths):.1f}",
         }
 
     def __repr__(self) -> str:
         """Return a table of one row."""
         columns = [
             (heading.ljust(width), cell.ljust(width))
-            for heading, cell in self.cells.items()
+            for heading, cell in self._shown_cells
             for width in [max(len(heading), len(cell))]
         ]
         rows = ["  ".join(row).rstrip() for row in zip(*columns, strict=True)]
         return "\n".join((self._title, *rows))
 
     def _repr_html_(self) -> str:
-        headings = "".join(f"<th>{escape(each)}</th>" for each in self.cells)
-        cells = "".join(f"<td>{escape(each)}</td>" for each in self.cells.values())
+        headings = "".join(f"<th>{escape(heading)}</th>" for heading, _cell in self._shown_cells)
+        cells = "".join(f"<td>{escape(cell)}</td>" for _heading, cell in self._shown_cells)
         return (
             f"<table><caption>{escape(self._title)}</caption>"
             f"<thead><tr>{headings}</tr></thead><tbody><tr>{cells}</tr></tbody></table>"
         )
 
     @property
+    def _shown_cells(self) -> list[tuple[str, str]]:
+        """Headings and cells in the reader's language."""
+        return [(translate(heading), translate(cell)) for heading, cell in self.cells.items()]
+
+    @property
     def _title(self) -> str:
-        return f"{self.scene}, {len(self.episodes)} episodes"
+        count = len(self.episodes)
+        title = ngettext("{scene}, {n} episode", "{scene}, {n} episodes", count, scene=self.scene)
+        return translate(title)
 
     def plain(self) -> dict[str, Any]:
         """Return all of it as plain data, for a file."""
@@ -110,15 +116,20 @@ class Evaluation:
         }
 
 
+def between(low: float, high: float) -> str:
+    """Return the limits of a share of successes, from 0 to 1, as percentages."""
+    return _("{low:.1f} and {high:.1f}%", low=100 * low, high=100 * high)
+
+
 def evaluation_table(evaluations: Sequence[Evaluation]) -> Table:
     """Return a table with a row for each evaluation, at least one."""
     told = Table(box=None, pad_edge=False)
     who, *others = evaluations[0].cells
-    told.add_column(who, overflow="fold")
+    told.add_column(translate(who), overflow="fold")
     for heading in others:
-        told.add_column(heading, justify="right")
+        told.add_column(translate(heading), justify="right")
     for each in evaluations:
-        told.add_row(*each.cells.values())
+        told.add_row(*map(translate, each.cells.values()))
     return told
 
 

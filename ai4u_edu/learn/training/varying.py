@@ -30,9 +30,10 @@ from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
 from ai4u_edu.games.jobs import Engine
 from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
-from ai4u_edu.learn.training.evaluating import Evaluation
+from ai4u_edu.learn.training.evaluating import Evaluation, between
 from ai4u_edu.learn.training.policies import entrant, expect_here
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.scene_data import SceneData
 from ai4u_edu.scenes.serialization import PlainDataError, is_serializable, to_plain
@@ -115,7 +116,7 @@ class TriedValue(Struct, frozen=True):
 
 @dataclass(frozen=True, repr=False)
 class Tried:
-    """Results of all values of a parameter; as text or in a notebook, a table."""
+    """Results of all values of a parameter; as text or in a notebook, a table for the reader."""
 
     parameter: NumberParameter
     rows: Sequence[TriedValue]
@@ -161,14 +162,15 @@ class Tried:
     def _headings(self) -> tuple[str, ...]:
         name, unit = self.parameter.name, self.parameter.shown_unit
         first = f"{name} ({unit})" if unit else name
-        return first, "success", "95% between", "reward", "time"
+        others = _("success"), _("95% between"), _("reward"), _("time")
+        return first, *map(translate, others)
 
 
 def _cells(row: TriedValue) -> tuple[str, ...]:
-    success, between = "-", "-"
+    success, limits = "-", "-"
     if row.success is not None and row.low is not None and row.high is not None:
-        success, between = f"{row.success:.0%}", f"{100 * row.low:.1f} and {100 * row.high:.1f}%"
-    return f"{row.value:.10g}", success, between, f"{row.reward:.2f}", f"{row.seconds:.1f} s"
+        success, limits = f"{row.success:.0%}", translate(between(row.low, row.high))
+    return f"{row.value:.10g}", success, limits, f"{row.reward:.2f}", f"{row.seconds:.1f} s"
 
 
 def number_parameters(scene: Scene) -> list[NumberParameter]:
@@ -382,10 +384,13 @@ def parameter_table(parameters: Sequence[NumberParameter]) -> Table:
     """Return a table with a row for each parameter that could be varied."""
     table = Table(box=None, pad_edge=False)
     table.add_column(
-        "parameter", overflow="fold", min_width=max(len(each.name) for each in parameters)
+        translate(_("parameter")),
+        overflow="fold",
+        min_width=max(len(each.name) for each in parameters),
     )
-    for heading in ("value", "unit", "range"):
-        table.add_column(heading, justify="right" if heading == "value" else "left")
+    table.add_column(translate(_("value")), justify="right")
+    for heading in (_("unit"), _("range")):
+        table.add_column(translate(heading))
     for each in parameters:
         value = "-" if each.value is None else f"{each.value:.10g}"
         table.add_row(each.name, value, each.shown_unit, each.limits)

@@ -16,6 +16,7 @@ import msgspec
 from msgspec import Meta
 
 from ai4u_edu.base.limits import MAX_EXACT_INT
+from ai4u_edu.locale import gettext as _
 
 MAX_VALUE_CHARS = 200_000
 """Characters of a widget's value; the viewer takes fewer, and tells the page when it does not."""
@@ -154,4 +155,6 @@ def checked(frame: bytes) -> bytes:
     except msgspec.ValidationError as error:
         raise ValueError(f"{error!s:.200}") from None
     except (msgspec.DecodeError, ValueError, RecursionError) as error:
-        raise MalformedError(f"expected a message as msgpack: {error!s:.200}") from None
+        raise MalformedError(
+            _("expected a message as msgpack: {error!s:.200}", error=str(error))
+        ) from None

@@ -123,16 +123,16 @@ class TrialResult:
         best = self.best if self.checks else None
         success = None if best is None else best.success
         return {
-            "trial": str(self.number),
-            "algorithm": self.choice.algorithm,
+            _("trial"): str(self.number),
+            _("algorithm"): self.choice.algorithm,
             **{name: text_of(self.choice.settings.get(name, "")) for name in names},
-            "seed": str(self.choice.seed),
-            "success": "" if success is None else f"{success:.0%}",
-            "reward": "" if best is None else f"{best.reward:.2f}",
-            "check length": "" if best is None else f"{best.length:.1f}",
-            "at step": "" if best is None else str(best.steps),
-            "steps": str(self.steps or ""),
-            "state": self.state,
+            _("seed"): str(self.choice.seed),
+            _("success"): "" if success is None else f"{success:.0%}",
+            _("reward"): "" if best is None else f"{best.reward:.2f}",
+            _("check length"): "" if best is None else f"{best.length:.1f}",
+            _("at step"): "" if best is None else str(best.steps),
+            _("steps"): str(self.steps or ""),
+            _("state"): self.state,
         }
 
 

@@ -114,7 +114,9 @@ class AgentLease:
             raise
         except (AI4UError, asyncio.CancelledError) as error:
             self.release(_("it could not be taken"))
-            raise RefusalError("ended", f"the agent can't be taken now ({error})") from None
+            raise RefusalError(
+                "ended", _("the agent can't be taken now ({error})", error=text_of(error))
+            ) from None
         finally:
             self.claimed.set()
         self._report.note_event(
