@@ -42,14 +42,15 @@ ISLANDS: tuple[Island, ...] = get_args(Island)
 Title = Annotated[str, StringConstraints(min_length=1, max_length=60)]
 CONTROLS = (
     *("Add a reward", "Add a sensor", "Add an actuator", "Arena", "Ball", "Blocks", "Box", "Build"),
-    *("Code", "Compare", "Details", "Drive", "Follow", "Keys", "Learn", "Let it drive"),
+    *("Code", "Compare", "Details", "Drive", "First actuator", "First brain", "First reward"),
+    *("First sensor", "Follow", "Keys", "Learn", "Let it drive", "More"),
     *("Networks", "New start", "Past", "Pause", "Practise", "Program", "Python", "Rewards", "Run"),
     *("Sensors", "Simple", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes", "Trail"),
     *("Try again", "Wall", "World"),
 )
 """Controls of the page that a mission can light, by the names that they have there; ``Keys`` are
-the keys on the screen, ``Program`` is the editor of a program, and ``Networks`` is the card of a
-network in the tab "Teach"."""
+the keys on the screen, ``Program`` is the editor of a program, ``Networks`` is the card of a
+network in the tab "Teach", and ``First sensor`` is a sensor's first card in the tab "Build"."""
 
 
 def _known_control(name: str) -> str:

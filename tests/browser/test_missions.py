@@ -182,6 +182,17 @@ def test_questions_are_answered_with_numbers_or_choices(desk: PanelPage) -> None
     desk.until(lambda: desk.panel.commands("mission_answer")[1:] == [{"answer": "right"}])
 
 
+def test_what_a_judge_says_has_code_and_bold_words(desk: PanelPage) -> None:
+    text = "Pay for *getting* nearer: `reward`."
+    desk.panel.replies["mission_judge"] = lambda _: {"passed": False, "text": text, "hint": ""}
+    desk.panel.change("mission", exercise={"id": "09.2", "function": "", "text": ""})
+    card(desk).get_by_role("button", name="Check").click()
+    said = card(desk).locator(".ai4u-mission-exercise .ai4u-mission-problem")
+    expect(said).to_have_text("Pay for getting nearer: reward.")
+    expect(said.locator("b")).to_have_text(["getting"])
+    expect(said.locator("code")).to_have_text(["reward"])
+
+
 def test_the_open_tab_and_a_folded_panel_are_told(desk: PanelPage) -> None:
     desk.tab("Past").click()
     desk.until(lambda: desk.panel.commands("mission_see")[-1]["tab"] == "past")
@@ -351,6 +362,8 @@ def test_only_controls_that_exist_are_lit(chromium: Browser) -> None:
         for tab in ("Drive", "Build", "World", "Code"):
             page.get_by_role("tab", name=tab, exact=True).click()
             expect(page.locator(".ai4u-tabpanel:visible button:visible").first).to_be_visible()
+            if tab == "Build":
+                page.locator(".ai4u-tabpanel:visible .ai4u-card-head").first.click()  # has "More"
             found |= set(page.evaluate(script, list(CONTROLS)))
         page.context.close()
     # the tab Teach needs a folder for a person's work

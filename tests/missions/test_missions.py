@@ -9,13 +9,22 @@ import numpy as np
 import pytest
 
 from ai4u_edu.lessons.answers import answers_to
-from ai4u_edu.lessons.built import BUILT
+from ai4u_edu.lessons.built import BUILT, PAGE_HINTS, judge_built
 from ai4u_edu.lessons.calls import JUDGES, starting_text
 from ai4u_edu.lessons.course import lesson
 from ai4u_edu.lessons.exercise import find
 from ai4u_edu.missions.checks import Chooses, Opens, Reads, Solves
-from ai4u_edu.missions.mission import ISLANDS, LIBRARY, library_missions, read_mission
+from ai4u_edu.missions.mission import (
+    CONTROLS,
+    ISLANDS,
+    LIBRARY,
+    library_missions,
+    read_mission,
+)
+from ai4u_edu.page.panel.block_words import BLOCK_WORDS
+from ai4u_edu.page.panel.field_hints import FIELD_LABELS
 from ai4u_edu.program import ProgramError
+from ai4u_edu.scenes import Scene
 from tests.missions.doing import Action, Doing
 from tests.missions.solutions import (
     SOLUTIONS,
@@ -178,6 +187,33 @@ def test_wrong_robots_of_an_exercise_do_not_pass(name: str) -> None:
     for kinds in WRONG_ROBOTS[name]:
         change_agent(do, **kinds)
         assert not do.is_done, kinds
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("build-7", "The *speed* of *Drive and jump* is what the number 1 stands for."),
+        ("build-9", "Press *Reward*: you need *Reach the target* for the box, and *Fall*."),
+    ],
+)
+def test_hints_on_a_robot_are_in_the_words_of_the_page(name: str, hint: str) -> None:
+    scene = Scene(Doing(name).scene)
+    assert judge_built(MISSIONS[name].exercise, lambda: scene.build().agents[0]).hint == hint
+
+
+@pytest.mark.parametrize("exercise", PAGE_HINTS)
+def test_hints_of_the_page_are_for_mistakes_that_a_judge_finds(exercise: str) -> None:
+    assert set(PAGE_HINTS[exercise]) <= set(find(exercise).hints)
+
+
+def test_missions_call_what_is_built_as_the_page_does() -> None:
+    known = {*CONTROLS, *FIELD_LABELS.values(), *(words.title for words in BLOCK_WORDS.values())}
+    known |= {"Sensor", "Reward", "W"}
+    for name, mission in MISSIONS.items():
+        if mission.island != "Build" or mission.exercise:
+            continue
+        bold = re.findall(r"\*([^*]+)\*", " ".join(step.say for step in mission.steps))
+        assert {word.replace("…", "...") for word in bold} <= known, name
 
 
 CHOICES = {

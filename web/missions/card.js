@@ -7,7 +7,7 @@
 import { syncMissions, tellPlace } from "../classroom/student/missions.js";
 import { unsavedSentence, request } from "../scenes/api.js";
 import { ask, tell } from "../shared/dialog.js";
-import { button, element, keyed, setAttributes, setText } from "../shared/dom.js";
+import { button, element, keyed, setAttributes, setText, withBold } from "../shared/dom.js";
 import { freeId } from "../shared/ids.js";
 import { t } from "../shared/text.js";
 import { ExerciseForm } from "./exercise.js";
@@ -294,14 +294,6 @@ export class MissionCard {
     this.#draw();
     (isHidden ? this.#pill : this.#next).focus();
   }
-}
-
-/**
- * Return a text as nodes: what stands in stars is bold.
- * @param {string} text
- */
-function withBold(text) {
-  return text.split("*").map((part, index) => (index % 2 ? element("b", { textContent: part }) : part));
 }
 
 /**

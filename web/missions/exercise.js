@@ -7,7 +7,7 @@
  * @import { Panel } from "../panel/panel.js"
  * @import { AnswerTo } from "../types/panel.js"
  */
-import { button, element, setText } from "../shared/dom.js";
+import { button, element, setText, withBold } from "../shared/dom.js";
 import { roomOfPage } from "../shared/room.js";
 import { recall, remember } from "../shared/storage.js";
 import { t } from "../shared/text.js";
@@ -140,9 +140,9 @@ export class ExerciseForm {
    * @param {number} [line] with the mistake
    */
   #say(text, printed = "", line = 0) {
-    // the lessons write code between backticks
-    if (this.#said.textContent !== text.replaceAll("`", "")) {
-      this.#said.replaceChildren(...text.split("`").map((part, index) => (index % 2 ? element("code", { textContent: part }) : part)));
+    // the lessons write code between backticks, and bold words between stars
+    if (this.#said.textContent.replaceAll("*", "") !== text.replaceAll(/[`*]/g, "")) {
+      this.#said.replaceChildren(...text.split("`").flatMap((part, index) => (index % 2 ? [element("code", { textContent: part })] : withBold(part))));
     }
     this.#said.hidden = !text;
     setText(this.#printed, printed);

@@ -9,6 +9,10 @@ const CONTROLS = "button, [role=tab], [role=switch], summary, select, a[href]";
  * @type {Record<string, string>}
  */
 const PLACES = {
+  "First actuator": "[data-blocks=actuators] .ai4u-card-head",
+  "First brain": "[data-blocks=brains] .ai4u-card-head",
+  "First reward": "[data-blocks=rewards] .ai4u-card-head",
+  "First sensor": "[data-blocks=sensors] .ai4u-card-head",
   Keys: ".ai4u-dpad:not(:empty), .ai4u-dock",
   Networks: ".ai4u-networks [aria-expanded=true], .ai4u-networks [aria-expanded]",
   Program: ".ai4u-code-editor, .ai4u-blocks-editor",
@@ -33,6 +37,7 @@ const NAMES = {
   Follow: t("Follow"),
   Learn: t("Learn"),
   "Let it drive": t("Let it drive"),
+  More: t("More"),
   "New start": t("New start"),
   Past: t("Past"),
   Pause: t("Pause"),

@@ -130,3 +130,11 @@ export function keyed(parent, items, keyOf, make, update = () => {}) {
   }
   for (const child of before.values()) child.remove();
 }
+
+/**
+ * Return a text as nodes: what stands in stars is bold.
+ * @param {string} text
+ */
+export function withBold(text) {
+  return text.split("*").map((part, index) => (index % 2 ? element("b", { textContent: part }) : part));
+}

@@ -60,7 +60,9 @@ export class BuildTab {
     for (const { kind, title, none: noneText, detailsOnly } of KINDS) {
       const cards = element("div", { className: "ai4u-card-list" });
       const none = element("p", { className: "ai4u-hint-text", textContent: noneText });
-      root.append(section(`build-${kind}`, title, { detailsOnly }, cards, none));
+      const made = section(`build-${kind}`, title, { detailsOnly }, cards, none);
+      made.dataset.blocks = kind;
+      root.append(made);
       this.#lists.set(kind, { cards, none });
     }
     this.#settings = new Form({
