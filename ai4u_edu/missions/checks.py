@@ -34,6 +34,8 @@ Tab = Literal["drive", "build", "world", "code", "past", "teach"]
 MAX_TIMES = 1000
 TIME_TOLERANCE_S = 1e-6
 """Times are sums of ticks, which are no round numbers."""
+MOVED_M = 0.01
+"""Distance (m) between two decisions from which on a robot is on its way."""
 MINUS = "\N{MINUS SIGN}"
 """The page writes numbers below 0 with it."""
 MAX_TEXT_CHARS = 400
@@ -93,8 +95,8 @@ class Drives(Check):
 class Covers(Check):
     """The robot drives for some seconds of an episode, and covers some metres on a wide enough way.
 
-    The time begins with the first decision of the driver who is asked for. Whoever has covered too
-    little at its end has to begin again, with another episode or after a break.
+    The time begins when the robot begins to move. Whoever has covered too little at its end has to
+    begin again, with another episode or after a break.
     """
 
     begins_with_latest = True
@@ -114,9 +116,13 @@ class Covers(Check):
             if before is None or (now.episode, now.step) != (before.episode, before.step + 1):
                 way, covered, began, is_over = [(now.x, now.y)], 0.0, now.seconds, False
             before = now
+            step = math.dist(way[-1], (now.x, now.y))
+            if not covered and step < MOVED_M:
+                began = now.seconds  # a person is still reading
+                step = 0.0
             if is_over:
                 continue
-            covered += math.dist(way[-1], (now.x, now.y))
+            covered += step
             way.append((now.x, now.y))
             left = self.seconds - (now.seconds - began)
             words = _(

@@ -120,6 +120,8 @@ def test_covers_looks_at_a_way_when_the_time_is_over() -> None:
     assert slow.words == words
     assert see(slow, *way((0, 0), (2, 0), (4, 0), (4, 2), episode=2))
     assert not see(following("covers", **parameters), *way((0, 0), (2, 0), (0, 0), (2, 0)))
+    waits = [replace(STILL, step=step, seconds=step - 9.0) for step in range(-9, 0)]
+    assert see(following("covers", **parameters), *waits, *far)
     *most, last = far
     assert not see(following("covers", **parameters), *most, replace(last, outcome="fell"))
     assert not see(following("covers", **parameters), *most, replace(last, step=5))  # a break
