@@ -20,7 +20,7 @@ from ai4u_edu.missions.mission import library_missions
 from tests.browser.served_viser import ready
 from tests.chromium import browser
 from tests.playing import Played, played
-from tests.waiting import until
+from tests.waiting import LIMIT_MS, until
 
 FOLDER = Path(__file__).parents[1] / "build" / "films"
 SIZES = {"desk": (1366, 768), "tablet": (820, 1180), "phone": (390, 844)}
@@ -87,6 +87,7 @@ def _take(chromium: Browser, film: Film, seed: str, size: str, scheme: str) -> l
     )
     arguments = "--seed", seed, "--time-scale", TIME_SCALE
     with played("box_chase", *arguments, waits_for_key=True) as server:
+        context.set_default_timeout(LIMIT_MS)
         page = context.new_page()
         page.goto(server.url)
         ready(page)
@@ -102,6 +103,7 @@ def _scene(chromium: Browser, name: str, seconds: float) -> list[Image.Image]:
     context = chromium.new_context(viewport=viewport)
     arguments = name, "--brain", driver, "--seed", NEAR_SEED, "--time-scale", speed
     with played(*arguments, waits_for_key=False) as server:
+        context.set_default_timeout(LIMIT_MS)
         page = context.new_page()
         page.goto(server.url)
         ready(page)
