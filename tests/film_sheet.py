@@ -4,11 +4,14 @@ A strip shows one thing in time: the opening, a win, a fall, a network that is w
 building, and the map with twelve missions. Each is taken on a desk, a tablet and a phone, light
 above dark. ``--scenes ants call`` takes those of scenes instead, which a program or a network
 drives, with the panel folded away. World and page are real.
+
+``--films missions --missions think-3 think-7 --sizes phone --schemes dark`` takes two missions on a
+phone in the dark.
 """
 
 import argparse
 import io
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -62,15 +65,19 @@ def main() -> None:
     parser.add_argument("--scenes", nargs="*", default=[], choices=SCENES)
     parser.add_argument("--seconds", type=float, default=56, help="of world time, for --scenes")
     parser.add_argument("--sizes", nargs="*", default=list(SIZES), choices=SIZES)
+    parser.add_argument("--schemes", nargs="*", default=list(SCHEMES), choices=SCHEMES)
+    parser.add_argument("--missions", nargs="*", default=list(MISSIONS), help="of that film")
     options = parser.parse_args()
+    missions: tuple[Film, str] = partial(_missions, names=options.missions), FAR_SEED
+    films = {**FILMS, "missions": missions}
     options.out.mkdir(parents=True, exist_ok=True)
     with browser() as chromium:
         for name in options.scenes:
             _save([_scene(chromium, name, options.seconds)], options.out / f"{name}.png")
         for name in [] if options.scenes else options.films:
-            film, seed = FILMS[name]
+            film, seed = films[name]
             for size in options.sizes:
-                rows = [_take(chromium, film, seed, size, scheme) for scheme in SCHEMES]
+                rows = [_take(chromium, film, seed, size, scheme) for scheme in options.schemes]
                 _save(rows, options.out / f"{name}_{size}.png")
 
 
@@ -85,6 +92,7 @@ def _take(chromium: Browser, film: Film, seed: str, size: str, scheme: str) -> l
         has_touch=is_touch,
         is_mobile=is_touch,
     )
+    context.set_default_timeout(LIMIT_MS)
     arguments = "--seed", seed, "--time-scale", TIME_SCALE
     with played("box_chase", *arguments, waits_for_key=True) as server:
         context.set_default_timeout(LIMIT_MS)
@@ -200,12 +208,12 @@ def _build(page: Page) -> Iterable[bytes]:
         yield page.screenshot()
 
 
-def _missions(page: Page) -> Iterable[bytes]:
+def _missions(page: Page, names: Sequence[str] = MISSIONS) -> Iterable[bytes]:
     world = page.url
     page.goto(f"{world}start#missions")
     page.locator(".ai4u-island[open]").wait_for()
     yield page.screenshot()
-    for name in MISSIONS:
+    for name in names:
         kept = f'{{"mission": "{name}", "step": 0}}'
         page.evaluate("kept => (localStorage['ai4u-mission-'] = kept)", kept)
         page.request.post(f"{world}api/scene", data={"name": library_missions().get(name).scene})

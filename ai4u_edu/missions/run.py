@@ -80,6 +80,7 @@ class MissionRun:
         """Hints in this step so far; see :data:`HINT_DECISIONS`."""
         self._hint_at: int | None = None
         self._other_decisions = 0
+        self._old_episode = None if self._latest is None else self._latest.episode
         self._old_networks = frozenset(self._networks)
         self._following.see(self._page)
         if self._scene is not None:
@@ -143,12 +144,17 @@ class MissionRun:
         if self.is_step_done:
             self.hint = ""
             return
+        if self.step.by == "program" and self._is_old_episode():
+            return  # the program of the step before still runs, while the person changes it
         for place, hint in enumerate(self.step.hints):
             self._hints[place].see(event)
             if self._hints[place].is_done:
                 self.hint = hint.say
                 self._count_hint()
                 self._hints[place] = Following(hint.when)  # it may happen again
+
+    def _is_old_episode(self) -> bool:
+        return self._latest is not None and self._latest.episode == self._old_episode
 
     def _count_hint(self) -> None:
         if self._hint_at is None or self._decisions - self._hint_at >= HINT_DECISIONS:

@@ -109,6 +109,7 @@ def test_a_block_is_dragged_and_drives(chromium: Browser) -> None:
         ada.press_lit("Code")
         ada.go_on()
         ada.press_lit("Blocks")
+        expect(ada.page.locator(".ai4u-blocks-editor")).to_be_in_viewport(ratio=1)
         ada.drag("Actions", "forward", below="forever")
         expect(ada.page.get_by_role("textbox", name="Program in Python")).to_contain_text(
             "forward = 1"

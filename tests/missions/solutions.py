@@ -391,8 +391,8 @@ def think_7(do: Doing) -> None:
 
 
 def brake_one_wheel(agent: BasicAgent) -> Action:
-    line = agent.percept["line"]
-    return {"move": [0.0 if line[0] > line[2] else 0.4, 0.0 if line[2] > line[0] else 0.4]}
+    line = agent.percept["line"]  # blocks count its eyes from 0, as Python does
+    return {"move": [0.0 if line[1] > line[3] else 0.4, 0.0 if line[3] > line[1] else 0.4]}
 
 
 def think_8(do: Doing) -> None:

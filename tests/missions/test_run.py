@@ -141,3 +141,15 @@ def test_a_page_shows_all_that_it_needs(run: MissionRun) -> None:
     question = mission_part("sense-1", reads, missions).question
     assert question is not None
     assert question.options == []
+
+
+def test_the_program_of_the_step_before_gets_no_hint() -> None:
+    run = MissionRun(read_mission(TEXT.replace("by: keys", "by: program"), "test.yaml"))
+    old = replace(STILL, driver="program")
+    run.see(old)
+    run.begin(0)
+    run.see(replace(old, outcome="fell"))
+    assert run.hint == ""
+    run.see(replace(old, episode=2))
+    run.see(replace(old, episode=2, outcome="fell"))
+    assert run.hint == "It fell."
