@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from ai4u_edu.base.errors import suggest, text_of
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.wire import native
 from ai4u_edu.wire.message_codec import Record
 from ai4u_edu.wire.texts import SEVERAL, pack_texts, unpack_texts
@@ -38,7 +39,7 @@ _TYPE = "type"
 _READINGS = "readings"
 _BLOCK = ("data", "texts")
 """Fields of a percept that have its readings in msgpack."""
-_ABSENT = "JSON has no NaN and no infinity"
+_ABSENT = _("JSON has no NaN and no infinity")
 
 
 class JsonForm:
@@ -76,7 +77,7 @@ class JsonForm:
         try:
             said = msgspec.json.decode(text)
         except Exception as error:  # any error is due to the bytes, such as nesting too deep
-            absent = f"; {_ABSENT}" if b"NaN" in text or b"Infinity" in text else ""
+            absent = join(["; ", _ABSENT], "") if b"NaN" in text or b"Infinity" in text else ""
             raise WireError(
                 _(
                     "expected JSON, got {text} ({error}){absent}",

@@ -80,10 +80,15 @@ class MessageCodec(Generic[M]):
         try:
             parts = msgspec.msgpack.decode(frame)
         except Exception as malformed:  # such as bytes that nest too deep
-            return f"expected msgpack, got {shown(frame)} ({malformed})"
+            return _(
+                "expected msgpack, got {frame} ({problem})",
+                frame=shown(frame),
+                problem=str(malformed),
+            )
         name = parts[0] if type(parts) is list and parts else None
         if type(name) is not str or name not in self._fields:
-            return f"expected a message ({', '.join(self._fields)}), got {shown(name)}"
+            known = ", ".join(self._fields)
+            return _("expected a message ({known}), got {name}", known=known, name=shown(name))
         return find_wrong_field(self._fields[name], parts[1:]) or str(error)
 
 

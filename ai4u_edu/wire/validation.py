@@ -13,6 +13,8 @@ from msgspec import inspect as types
 
 from ai4u_edu.base import errors
 from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 MAX_INT = 2**53 - 1
 """The largest integer that every language has."""
@@ -64,20 +66,27 @@ def find_mistake(kind: types.Type, value: Any) -> str:
         case types.StructType(fields=fields) if _is_short(value, list):
             return find_wrong_field(fields, value)
     expected = _expected(kind, value)
-    return f"expected {expected}, got {shown(value)}" if expected else ""
+    if not expected:
+        return ""
+    return _("expected {expected}, got {value}", expected=expected, value=shown(value))
 
 
 def find_wrong_field(fields: Sequence[types.Field], values: Sequence[Any]) -> str:
     """Explain the first mistake in the fields of a message; return an empty text for none."""
     least, most = sum(field.required for field in fields), len(fields)
     if not least <= len(values) <= most:
-        count = f"{most}" if least == most else f"{least} to {most}"
+        count = str(most) if least == most else _("{least} to {most}", least=least, most=most)
         names = ", ".join(field.name for field in fields)
-        return f"expected {count} fields ({names}), got {len(values)}"
+        return _(
+            "expected {count} fields ({names}), got {got}",
+            count=count,
+            names=names,
+            got=len(values),
+        )
     for field, value in zip(fields, values, strict=False):
         mistake = find_mistake(field.type, value)
         if mistake:
-            return f"{field.name}: {mistake}"
+            return join([field.name, mistake], ": ")
     return ""
 
 
@@ -88,29 +97,33 @@ def _expected(kind: types.Type, value: Any) -> str:
             if type(value) is int and 0 <= value <= (most or MAX_INT):
                 return ""
             is_too_large = type(value) is int and value > 0
-            return f"a whole number from 0 {f'to {most}' if is_too_large else 'on'}"
+            if is_too_large:
+                return _("a whole number from 0 to {most}", most=most or MAX_INT)
+            return _("a whole number from 0 on")
         case types.FloatType(ge=low, le=high):
             if type(value) not in (int, float):
-                return "a number"
+                return _("a number")
             return "" if low is None or low <= value <= (high or 0.0) else _range(low, high)
         case types.BoolType():
-            return "" if type(value) is bool else "true or false"
+            return "" if type(value) is bool else _("true or false")
         case types.StrType(max_length=most):
             is_fine = type(value) is str and len(value) <= (most or 0)
-            return "" if is_fine else f"text of up to {most} characters"
+            return "" if is_fine else _("text of up to {most} characters", most=most or 0)
         case types.BytesType(max_length=most):
             is_fine = type(value) is bytes and len(value) <= (most or 0)
-            return "" if is_fine else f"up to {most} bytes"
+            return "" if is_fine else _("up to {most} bytes", most=most or 0)
         case types.LiteralType(values=known):
             is_known = type(value) is str and value in known
-            return "" if is_known else f"one of {', '.join(map(repr, known))}"
+            return "" if is_known else _("one of {names}", names=", ".join(map(repr, known)))
         case types.DictType():
-            return f"names and values, up to {MAX_ENTRIES}"
-    return f"a list of up to {MAX_ENTRIES}"
+            return _("names and values, up to {most}", most=MAX_ENTRIES)
+    return _("a list of up to {most}", most=MAX_ENTRIES)
 
 
 def _range(low: float, high: float | None) -> str:
-    return "a finite number" if low == -MAX_FLOAT else f"a number from {low:g} to {high:g}"
+    if low == -MAX_FLOAT or high is None:
+        return _("a finite number")
+    return _("a number from {low:g} to {high:g}", low=low, high=high)
 
 
 def _is_short(value: Any, kind: type[list[Any] | Mapping[Any, Any]]) -> bool:

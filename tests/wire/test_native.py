@@ -10,7 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.locale import Catalogue
 from ai4u_edu.wire.native import (
     MAX_GRACE_S,
     MAX_READING_CHARS,
@@ -219,3 +221,17 @@ def test_a_sentence_that_is_too_long_for_a_message_is_cut() -> None:
     assert isinstance(problem, Problem)
     assert problem.text == "x" * (MAX_READING_CHARS - 3) + "..."
     assert decode(encode(Bye("x" * 10_000))) == Bye("x" * 397 + "...")
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        (["reset", -1, None], "seq: o esperado é um número inteiro a partir de 0, mas veio -1"),
+        (["oops"], "era esperada uma mensagem (hello, "),
+        (["problem", 1], "o esperado são 3 campos (code, text, seq), mas vieram 1"),
+    ],
+)
+def test_a_mistake_is_told_in_the_readers_language(fields: list[object], said: str) -> None:
+    with pytest.raises(WireError) as raised:
+        decode(msgspec.msgpack.encode(fields))
+    assert said in Catalogue("pt_BR").translate(text_of(raised.value))
