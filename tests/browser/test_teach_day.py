@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
 
@@ -68,6 +69,8 @@ class Teacher:
 def kill(school: ServedClass, learning: psutil.Process) -> None:
     """Kill the class's program without a warning; its learner ends with it."""
     os.kill(school.process.pid, signal.SIGKILL)
+    with suppress(psutil.Error):  # it is gone already
+        learning.resume()  # a halted process keeps the signal of its parent's end waiting
     assert psutil.wait_procs([learning], LIMIT_S)[1] == []
 
 

@@ -8,7 +8,7 @@ import { Curve } from "../panel/widgets/curve.js";
 
 /** Share by which a network should act more like its driver than one that always does the same. */
 const LITTLE_BETTER = 0.1;
-const NEXT = t("Does it go wrong somewhere? Press a driving key there, and show it how. That drive is listed, too: learn again.");
+const NEXT = t("Does it go wrong somewhere? Take over there, and show it how. That drive is listed, too: learn again.");
 
 export class LearningView {
   #curve = new Curve(t("The error, which falls while it learns"), t("Its mistakes while it learns: the lower, the better."));
