@@ -24,7 +24,6 @@ from ai4u_edu.blocks import (
     Controller,
     DiscreteActuator,
     Keyboard,
-    LocalBrain,
     Percept,
     RewardFunc,
     Sensor,
@@ -33,6 +32,7 @@ from ai4u_edu.blocks import (
 from ai4u_edu.blocks.agent_view import AgentInput
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Accepted
+from ai4u_edu.blocks.brains.local import as_brain, can_drive
 from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import Body, World, WorldView
@@ -102,7 +102,7 @@ class BasicAgent(Parameterized):
     def _with_brains(cls, brains: Any) -> Any:
         if not isinstance(brains, list | tuple):
             return brains
-        return [_as_brain(each) if _can_drive(each) else each for each in brains]
+        return [as_brain(each) if can_drive(each) else each for each in brains]
 
     def __post_init__(self) -> None:
         self.keyboard = Keyboard()
@@ -343,7 +343,7 @@ class BasicAgent(Parameterized):
         Raises:
             SetupError: the value is none of these, or the brain does not fit the agent.
         """
-        self.bound_blocks.swap_brain(_as_brain(brain))
+        self.bound_blocks.swap_brain(as_brain(brain))
 
     def take_fields(self, fields: Mapping[str, tuple[str, ...]]) -> str:
         """Take the fields that a script sent besides its action.
@@ -547,35 +547,6 @@ class BasicAgent(Parameterized):
                 action=repr(action),
             )
         ) from None
-
-
-def _as_brain(given: object) -> Brain:
-    """Return a brain unchanged, or a LocalBrain for a controller or a function.
-
-    Raises:
-        SetupError: the value is none of these.
-    """
-    if isinstance(given, Brain):
-        return given
-    if _can_drive(given):
-        return LocalBrain(controller=given)  # type: ignore[arg-type]  # _can_drive checked it
-    got = repr(given)
-    if isinstance(given, type):
-        got = _("the class {name}", name=given.__name__)
-    raise SetupError(
-        _(
-            "expected a brain, a controller or a function from percept to action, got {got}; "
-            "a brain is made as in LocalBrain(controller=WASDRBMoveController())",
-            got=got,
-        )
-    )
-
-
-def _can_drive(given: object) -> bool:
-    """Return True for a controller or a function, which a LocalBrain can hold."""
-    if isinstance(given, Controller):
-        return True
-    return callable(given) and not isinstance(given, type | Parameterized)
 
 
 def _table(agent: BasicAgent) -> str:

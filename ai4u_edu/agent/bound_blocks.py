@@ -1,15 +1,4 @@
-"""An agent's blocks, bound to its body in one world.
-
-A block belongs to one agent at a time, since it keeps state for its agent, such as the best
-distance so far. Two agents that share a block would silently corrupt it. So an agent claims its
-blocks when they are set up:
-
-- If another agent of the same ControlRequestor has the block, that is an error.
-- If an agent of another ControlRequestor has it, as when a notebook cell runs again, the block
-  changes its owner, and the agent that had it can neither decide nor be reset any more.
-
-A block refers to its owner weakly.
-"""
+"""An agent's blocks, bound to its body in one world."""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -17,16 +6,15 @@ from contextlib import contextmanager
 from functools import partial
 from operator import attrgetter
 from typing import Any, Protocol
-from weakref import ref
 
 from ai4u_edu.agent.error_context import add_context, block_label
 from ai4u_edu.agent.ledger import Ledger
+from ai4u_edu.agent.ownership import LostBrain, Owner, claim, owner_of
 from ai4u_edu.base.attributes import refuse_stray
 from ai4u_edu.base.errors import AI4UError, BlockError, ReadingError, SetupError, text_of
 from ai4u_edu.blocks import (
     Actuator,
     AgentArraySensor,
-    Answer,
     Brain,
     DoneSensor,
     IDSensor,
@@ -35,7 +23,6 @@ from ai4u_edu.blocks import (
     RewardFunc,
     Sensor,
 )
-from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block, walk_blocks
 from ai4u_edu.blocks.percept import TEXTS, Texts
 from ai4u_edu.blocks.sensors.sensor_state import depends_on_status, read_status_again
@@ -43,8 +30,6 @@ from ai4u_edu.locale import Text, join, listed
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import BodyView, World, WorldView
 
-_OWNER = "_owner_ref"
-"""Attribute of a block that refers to the agent that claimed it last."""
 _is_enabled = attrgetter("enabled")
 
 _SET_UP, _RESET = _("while {block} of {agent} was set up"), _("while {block} of {agent} was reset")
@@ -54,7 +39,7 @@ _READING, _PAYING = (
 )
 
 
-class _Owner(AgentView, Protocol):
+class _Agent(Owner, Protocol):
     """Protocol of an agent whose blocks are bound (BasicAgent is one)."""
 
     body_name: str
@@ -62,18 +47,6 @@ class _Owner(AgentView, Protocol):
     actuators: list[Actuator]
     rewards: list[RewardFunc]
     brains: list[Brain]
-
-    @property
-    def requestor(self) -> object | None:
-        """The ControlRequestor that the agent belongs to."""
-
-    @property
-    def bound_blocks(self) -> "BoundBlocks":
-        """The blocks bound to its body."""
-
-    @property
-    def bound_blocks_or_none(self) -> "BoundBlocks | None":
-        """The blocks bound to its body; None before it is set up."""
 
 
 class BoundBlocks:
@@ -87,7 +60,7 @@ class BoundBlocks:
         SetupError: something does not fit; the message names it.
     """
 
-    def __init__(self, agent: _Owner, world: World) -> None:
+    def __init__(self, agent: _Agent, world: World) -> None:
         self._agent = agent
         self.world = world
         with self._error_context(None):
@@ -111,7 +84,7 @@ class BoundBlocks:
         self.tick_sensors: list[Sensor] = []
         """Known once they are set up."""
         self._places: tuple[Brain, list[tuple[str, Block]]] | None = None
-        _claim(agent, self.blocks)
+        claim(agent, self.blocks)
 
     def set_up(self, *, ready_brain: Brain | None = None) -> None:
         """Set up reward functions, then sensors, actuators and the brain.
@@ -167,11 +140,11 @@ class BoundBlocks:
         Raises:
             SetupError: the brain does not fit, or the agent has lost other blocks.
         """
-        if isinstance(self.brain, _LostBrain) and not self.brain.is_replaceable:
+        if isinstance(self.brain, LostBrain) and not self.brain.is_replaceable:
             raise SetupError(self.brain.problem)
         others = [each for each in self.blocks if each is not self.brain]
         _check_each_once(self._agent, [*others, brain])
-        _claim(self._agent, [brain])
+        claim(self._agent, [brain])
         was_enabled, brain.enabled = brain.enabled, True
         try:
             self._set_up(brain)
@@ -198,13 +171,13 @@ class BoundBlocks:
         brains = self._agent.brains
         if brains == self._known_brains and [*map(_is_enabled, brains)] == self._switches:
             return
-        if isinstance(self.brain, _LostBrain):
+        if isinstance(self.brain, LostBrain):
             return
         agent = self._agent
         try:
             # a brain that was lent to another agent is switched for that one
             brain = _enabled_brain(
-                agent, [each for each in agent.brains if _owner_of(each) in (None, agent)]
+                agent, [each for each in agent.brains if owner_of(each) in (None, agent)]
             )
         except SetupError as error:
             raise SetupError(
@@ -428,7 +401,7 @@ class BoundBlocks:
         """Add agent and block to an error; raise one of this package's as a BlockError."""
         if not isinstance(error, AI4UError):
             add_context(error, self._agent, block, doing)
-        elif not isinstance(block, _LostBrain):
+        elif not isinstance(block, LostBrain):
             who = _("agent {id!r}", id=self._agent.id)
             problem = BlockError(
                 join(
@@ -439,36 +412,7 @@ class BoundBlocks:
             raise problem from error
 
 
-class _LostBrain(Brain):
-    """Placeholder for the brain of an agent whose block another agent has claimed.
-
-    It refuses to decide and to be reset, since the block writes to another agent's memory now.
-    The agent can still be inspected.
-    """
-
-    abstract = True  # nothing for a scene file
-
-    def replace_brain(self, brain: Brain, block: Block, problem: str) -> None:
-        """Set the brain that it replaces and the reason."""
-        self._title = brain.title()
-        self.is_replaceable = any(block is each for each in walk_blocks([brain]))
-        """True if only the brain was lost, so that another brain can replace it."""
-        self.problem = problem
-
-    def on_reset(self, agent: AgentView, view: WorldView) -> None:  # noqa: ARG002 - refuses any
-        """Raise a SetupError."""
-        raise SetupError(self.problem)
-
-    def decide(self, percept: Percept) -> Answer:  # noqa: ARG002 - refuses any
-        """Raise a SetupError."""
-        raise SetupError(self.problem)
-
-    def title(self) -> str:
-        """Return the title of the brain that it replaces."""
-        return self._title
-
-
-def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:
+def _check_each_once(agent: _Agent, blocks: Iterable[Block]) -> None:
     """Check that no block, nor a block inside one, occurs in an agent twice.
 
     Raises:
@@ -489,68 +433,7 @@ def _check_each_once(agent: _Owner, blocks: Iterable[Block]) -> None:
         known.add(id(block))
 
 
-def _claim(agent: _Owner, blocks: Iterable[Block]) -> None:
-    """Make an agent the owner of blocks and of the blocks inside them.
-
-    Raises:
-        SetupError: another agent of the same ControlRequestor owns one of them.
-    """
-    claimed = list(walk_blocks(blocks))
-    for block in claimed:
-        owner = _owner_of(block)
-        if owner is None or owner is agent:
-            continue
-        if _are_together(agent, owner):
-            raise SetupError(
-                _(
-                    "agents {id!r} and {id2!r} share the same {block}; make one for each agent, "
-                    "as in {type}(...) for each",
-                    id=owner.id,
-                    id2=agent.id,
-                    block=block_label(block),
-                    type=type(block).__name__,
-                )
-            )
-        _take_away(owner, block, agent)
-    for block in claimed:
-        setattr(block, _OWNER, ref(agent))
-
-
-def _owner_of(block: Block) -> _Owner | None:
-    """Return the agent that uses a block now."""
-    reference: Any = getattr(block, _OWNER, None)
-    owner: _Owner | None = reference() if reference is not None else None
-    bound = owner.bound_blocks_or_none if owner is not None else None
-    if bound is None or not any(each is block for each in walk_blocks(bound.blocks)):
-        return None
-    return owner
-
-
-def _are_together(one: _Owner, other: _Owner) -> bool:
-    return one.requestor is not None and one.requestor is other.requestor
-
-
-def _take_away(owner: _Owner, block: Block, agent: _Owner) -> None:
-    bound = owner.bound_blocks
-    if isinstance(bound.brain, _LostBrain) and not bound.brain.is_replaceable:
-        return
-    lost = _LostBrain(skip_frame=bound.brain.skip_frame, repeat_action=bound.brain.repeat_action)
-    lost.replace_brain(
-        bound.brain,
-        block,
-        _(
-            "agent {id!r} has lost its {block} to agent {other!r} of another ControlRequestor, "
-            "which was made later; make one for each agent, or make the ControlRequestor of agent "
-            "{id!r} anew",
-            id=owner.id,
-            block=block_label(block),
-            other=agent.id,
-        ),
-    )
-    bound.brain = lost
-
-
-def _enabled_brain(agent: _Owner, brains: Sequence[Brain]) -> Brain:
+def _enabled_brain(agent: _Agent, brains: Sequence[Brain]) -> Brain:
     """Return the one enabled brain of an agent.
 
     Args:
@@ -608,7 +491,7 @@ _TWO_ACTUATORS = _(
 )
 
 
-def _check_unique(agent: _Owner, two: Text, field: str, blocks: Sequence[Block]) -> None:
+def _check_unique(agent: _Agent, two: Text, field: str, blocks: Sequence[Block]) -> None:
     """Raise a SetupError if two blocks of an agent have the same name.
 
     Args:

@@ -51,66 +51,20 @@ episode's first one does, is shorter: it ends at its own agent's slot.
 """
 
 import time
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
 
 from ai4u_edu.agent.agent import BasicAgent, Numbers
 from ai4u_edu.agent.episode_options import EpisodeOptions, Options
 from ai4u_edu.agent.error_context import add_context
+from ai4u_edu.agent.state import AgentMoment, DecisionState, Phase, SimState
 from ai4u_edu.base.errors import NameNotFoundError, NoDecisionError, SetupError, shown, suggest
 from ai4u_edu.base.seeding import checked_seed
 from ai4u_edu.blocks import Actuator, Command, Percept, RewardFunc, Sensor
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import World
-from ai4u_edu.world.state import WorldState
 
 HOLD_LIMIT_S = 660.0
 """Time (s) for which a step waits for another agent's brain; a script may be silent for 600 s."""
-
-
-class Phase(NamedTuple):
-    """Progress of an agent's decision."""
-
-    tick: int = 0
-    """Ticks of the decision that have passed; 0 before the first decision."""
-    ticks: int = 1
-    """Ticks that the decision takes."""
-    repeats: bool = True
-    """True if the actuators act at every tick, False if only at the first."""
-
-
-BlockStates = Mapping[str, Mapping[str, Any]]
-
-
-class DecisionState(NamedTuple):
-    """An agent's present decision."""
-
-    under_way: bool
-    phase: Phase
-    action: tuple[tuple[str, tuple[float, ...]], ...]
-    """Numbers by action name, in the order in which the actuators act."""
-
-
-class AgentMoment(NamedTuple):
-    """Everything that changes in an agent while its world runs."""
-
-    values: Mapping[str, Any]
-    """The agent's own attributes."""
-    ledger: Mapping[str, Any]
-    decision: DecisionState
-    blocks: BlockStates
-    """Results of :meth:`Block.get_state`, by the block's place in the agent."""
-
-
-class SimState(NamedTuple):
-    """Everything that changes in a world and its agents while it runs, but for held keys."""
-
-    episode: int
-    world: WorldState
-    agents: Mapping[str, AgentMoment]
-    """States of the agents, by id."""
-    options: Options
-    """Options of the episode's reset."""
 
 
 class ControlRequestor:
@@ -596,28 +550,18 @@ def _check_members(world: object, agents: object) -> None:
     example = "as in ControlRequestor(world, [agent])"
     if not isinstance(world, World):
         raise SetupError(
-            _(
-                "expected a World first, {example}, got {got}",
-                example=example,
-                got=_shown(world),
-            )
+            _("expected a World first, {example}, got {got}", example=example, got=_shown(world))
         )
     if not isinstance(agents, Sequence) or isinstance(agents, str):
+        got = _shown(agents)
         raise SetupError(
-            _(
-                "expected a list of agents, {example}, got {got}",
-                example=example,
-                got=_shown(agents),
-            )
+            _("expected a list of agents, {example}, got {got}", example=example, got=got)
         )
     for agent in agents:
         if not isinstance(agent, BasicAgent):
+            got = _shown(agent)
             raise SetupError(
-                _(
-                    "expected agents in the list, {example}, got {got}",
-                    example=example,
-                    got=_shown(agent),
-                )
+                _("expected agents in the list, {example}, got {got}", example=example, got=got)
             )
     if not agents:
         raise SetupError(_("expected at least one agent, got none"))

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import partial
 from numbers import Real
 from typing import Any, Protocol
 
@@ -24,8 +24,7 @@ from ai4u_edu.base.errors import (
 from ai4u_edu.base.parameters import DataPath, explain, format_problems, is_open
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.block import default_name
-from ai4u_edu.blocks.parameterized import Parameterized
-from ai4u_edu.locale import Text, join
+from ai4u_edu.blocks.declared_numbers import DeclaredNumber, declared_numbers
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription, World, redescribe
 
@@ -35,8 +34,6 @@ Thing = BodyDescription | FloorDescription | AreaDescription
 
 AGENT_NUMBERS = ("max_steps_per_episode", "reward_scale")
 """Numbers of an agent itself; its other ones are for AI4U's scripts."""
-NO_QUANTITIES = {"collision_layer", "collision_mask"}
-"""Numbers of a body that are sets of bits."""
 FIXED = {"ticks_per_second": _("a tick's length"), "priority": _("the order of agents")}
 """Numbers that no reset can change, with what they decide."""
 KINDS = {FloorDescription: "floors", AreaDescription: "areas", BodyDescription: "bodies"}
@@ -47,22 +44,6 @@ class Sim(Protocol):
 
     world: World
     agents: tuple[BasicAgent, ...]
-
-
-@dataclass(frozen=True)
-class DeclaredNumber:
-    """A number that a block, an agent, a thing or the world declares, or a pair of them."""
-
-    name: str
-    value: Any
-    """Its default; None if it has none."""
-    low: float
-    high: float
-    is_whole: bool
-    is_pair: bool
-    unit: str
-    limits: str
-    """Its range in words; empty if it has none."""
 
 
 @dataclass(frozen=True)
@@ -417,55 +398,6 @@ def named_blocks(agent: BasicAgent) -> Iterator[tuple[str, int, str]]:
             if name:
                 yield kind, index, f"{kind}.{name}" if name in taken else name
                 taken.add(name)
-
-
-@lru_cache(maxsize=256)
-def declared_numbers(cls: type) -> tuple[DeclaredNumber, ...]:
-    """Return the numbers, and pairs of numbers, that a class declares as parameters."""
-    schema: dict[str, Any] = {"properties": {}}
-    if issubclass(cls, BaseModel):
-        schema = cls.model_json_schema()
-    elif issubclass(cls, Parameterized):
-        schema = cls.json_schema()
-    found = (_declared(name, about) for name, about in schema["properties"].items())
-    return tuple(each for each in found if each is not None and each.name not in NO_QUANTITIES)
-
-
-def _declared(name: str, about: Mapping[str, Any]) -> DeclaredNumber | None:
-    is_pair = False
-    for form in (about, *about.get("anyOf", ())):
-        parts = form.get("prefixItems", ())
-        is_pair = form.get("type") == "array" and len(parts) == 2 and parts[0] == parts[1]
-        number = parts[0] if is_pair else form
-        if number.get("type") in ("number", "integer"):
-            break
-    else:
-        return None
-    low, high = number.get("minimum", -math.inf), number.get("maximum", math.inf)
-    above, below = number.get("exclusiveMinimum"), number.get("exclusiveMaximum")
-    bounds = (
-        (_("at least {bound:g}"), number.get("minimum")),
-        (_("more than {bound:g}"), above),
-        (_("at most {bound:g}"), number.get("maximum")),
-        (_("less than {bound:g}"), below),
-    )
-    return DeclaredNumber(
-        name=name,
-        value=about.get("default"),
-        low=math.nextafter(above, math.inf) if above is not None else low,
-        high=math.nextafter(below, -math.inf) if below is not None else high,
-        is_whole=number["type"] == "integer",
-        is_pair=is_pair,
-        unit=str(number.get("unit", "")),
-        limits=join(
-            [
-                Text(words.msgid, {"bound": end})
-                for words, end in bounds
-                if end is not None and not is_open(end)
-            ],
-            ", ",
-        ),
-    )
 
 
 def _of_model(name: str, owner: DataPath, model: BaseModel) -> list[OptionParameter]:

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Self
 
-from ai4u_edu.agent.cycle import ControlRequestor, SimState
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.state import SimState
 from ai4u_edu.base.errors import NameNotFoundError, suggest
 from ai4u_edu.blocks import Brain
 from ai4u_edu.locale import gettext as _

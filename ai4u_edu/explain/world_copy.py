@@ -7,7 +7,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor, SimState
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.state import SimState
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.blocks import Brain, HomeostaticVariable, LocalBrain, Percept, Sensor
 from ai4u_edu.blocks.block import walk_blocks

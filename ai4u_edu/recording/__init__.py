@@ -1,7 +1,8 @@
 """Recording, exact replay and export of episodes."""
 
+from ai4u_edu.recording.agent_record import AgentRecord, RecordedDecision
 from ai4u_edu.recording.archive import Archive, ArchiveEntry
-from ai4u_edu.recording.episode import AgentRecord, Episode, RecordedDecision
+from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.ghosts import Ghost, Ghosts, ghost_of
 from ai4u_edu.recording.recorder import Recorder

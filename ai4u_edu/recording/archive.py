@@ -11,7 +11,8 @@ from typing import overload
 from ai4u_edu.blocks import Block, RemoteBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.recording.episode import AgentRecord, Episode
+from ai4u_edu.recording.agent_record import AgentRecord
+from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.errors import RecordingError
 
 MAX_PINNED = 20

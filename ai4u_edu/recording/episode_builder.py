@@ -12,19 +12,21 @@ from ai4u_edu.agent.driving_keys import active_brain, has_driving_keys
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.agent_view import AgentInput
-from ai4u_edu.recording.checksum import percept_checksum, world_checksum
-from ai4u_edu.recording.episode import (
+from ai4u_edu.recording.agent_record import (
     DONE_REQUESTED,
     ENDED,
-    MAX_DRIVER_CHARS,
-    MAX_INPUTS,
-    MAX_TICK,
     NO_ROWS,
     PERSON,
     REPEAT,
     TERMINATED,
     TRUNCATED,
     AgentRecord,
+)
+from ai4u_edu.recording.checksum import percept_checksum, world_checksum
+from ai4u_edu.recording.episode import (
+    MAX_DRIVER_CHARS,
+    MAX_INPUTS,
+    MAX_TICK,
     Episode,
     Input,
     Restart,

@@ -9,7 +9,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Answer, Brain, Command, Percept
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.recording.episode import DONE_REQUESTED, REPEAT, Episode, Input
+from ai4u_edu.recording.agent_record import DONE_REQUESTED, REPEAT
+from ai4u_edu.recording.episode import Episode, Input
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.scene_export import export_scene, without_brains, without_unknown_brains
 from ai4u_edu.scenes import Scene

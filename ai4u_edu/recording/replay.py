@@ -9,7 +9,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import AI4UError, suggest, text_of
 from ai4u_edu.blocks import Brain, Percept
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.recording.episode import Episode, RecordedDecision
+from ai4u_edu.recording.agent_record import RecordedDecision
+from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.errors import RecordingError
 from ai4u_edu.recording.player import Player
 from ai4u_edu.recording.recorder import Recorder

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
-from ai4u_edu.recording.episode import ENDED, AgentRecord, Episode
+from ai4u_edu.recording.agent_record import ENDED, AgentRecord
+from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.episode_builder import VERSIONS
 
 

@@ -10,18 +10,17 @@ from dataclasses import replace
 from typing import TypeVar
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.block_errors import reason_for_no_decision, sentence_of, storable
+from ai4u_edu.agent.block_errors import may_be_kept, reason_for_no_decision, sentence_of, storable
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import NoDecisionError
 from ai4u_edu.blocks import Brain, RemoteBrain
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Recorder, Replay
-from ai4u_edu.runtime.clock import Clock, EpisodeClock, TickSchedule
+from ai4u_edu.runtime.clock import Clock, EpisodeClock, StartWait, TickSchedule
 from ai4u_edu.runtime.command_queue import CommandQueue, QueuedCommand
 from ai4u_edu.runtime.frame_budget import FrameBudget
 from ai4u_edu.runtime.pending_answers import PendingAnswers
 from ai4u_edu.runtime.snapshot_publisher import SnapshotPublisher
-from ai4u_edu.runtime.start_wait import StartWait
 from ai4u_edu.runtime.tick_monitor import Stall, TickMonitor
 from ai4u_edu.runtime.training_progress import TrainingProgress
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
@@ -526,7 +525,7 @@ class Runner:
         except BaseException as error:  # it belongs to the caller
             self._publish()
             command.future.set_exception(storable(error, self.sim.agents))
-            if not self._may_keep(error):
+            if not may_be_kept(error):
                 raise
         else:
             self._publish()  # before the result: the caller may read the snapshot at once
@@ -556,13 +555,9 @@ class Runner:
         try:
             act()
         except BaseException as error:
-            if not self._may_keep(error):
+            if not may_be_kept(error):
                 raise
             self.error = self.describe_error(error, self.sim.agents)
-
-    def _may_keep(self, error: BaseException) -> bool:
-        """Return True for a block's error; Ctrl-C is raised in the main thread only."""
-        return isinstance(error, Exception) or threading.current_thread() is self._thread
 
     def _close(self, brain: Brain, reason: str = "") -> None:
         """Close a brain that no longer drives, and log its error."""
@@ -572,7 +567,7 @@ class Runner:
             else:
                 brain.close()
         except BaseException as error:
-            if not self._may_keep(error):
+            if not may_be_kept(error):
                 raise
             logger.warning("%s could not be closed", type(brain).__name__, exc_info=True)
 

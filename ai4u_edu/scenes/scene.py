@@ -1,6 +1,6 @@
 """Scenes: read from files, built into worlds with agents, written to files."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, Self
 
@@ -10,15 +10,14 @@ from yaml import YAMLError
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import AI4UError, SceneError, WorldError, suggest, text_of
-from ai4u_edu.base.parameters import ParameterProblem, explain
+from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, WorldError, suggest, text_of
+from ai4u_edu.base.parameters import DataPath, ParameterProblem, explain
 from ai4u_edu.blocks import Brain
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
 from ai4u_edu.scenes.description import SceneDescription, check_success, make_agents
 from ai4u_edu.scenes.serialization import PlainDataError
-from ai4u_edu.scenes.setup_errors import path_of
 from ai4u_edu.scenes.yaml.edit import edited
 from ai4u_edu.scenes.yaml.file import YamlFile, with_pictures, write_yaml
 from ai4u_edu.scenes.yaml.tree import NotYamlError, read_tree
@@ -30,6 +29,9 @@ RANDOM_RESETS = 20
 """Resets that are tried when a randomized scene is read: each must find room for everything."""
 MAX_ERRORS = 20
 """Errors of a file in one message."""
+BLOCK_KINDS = ("sensors", "actuators", "rewards", "brains")
+UNKNOWN_NAME_PHRASES = ("is named", "is called", "carries the tag", "the network")
+"""Phrases in messages before a name that does not exist."""
 
 
 class Scene:
@@ -125,7 +127,7 @@ class Scene:
                 file, [ParameterProblem(description.where_is(error.thing), text_of(error))]
             ) from None
         except AI4UError as error:
-            path = path_of(error, description.agents)
+            path = _path_of(error, description.agents)
             if not path:
                 raise SceneError(join([name, text_of(error)], ": ")) from None
             raise _scene_error(file, [ParameterProblem(path, text_of(error))]) from None
@@ -266,3 +268,53 @@ def _scene_error(
         more = len(problems) - len(shown)
         lines.append(_("{name}: and {count} more like these", name=file.name, count=more))
     return SceneError(join([*lines], "\n"))
+
+
+def _path_of(error: AI4UError, agents: Iterable[Mapping[str, Any]]) -> DataPath:
+    """Return the path in the scene that an error is about; () if unknown.
+
+    Args:
+        error: raised while agents were set up in a world.
+        agents: the agents' parameters in the scene.
+    """
+    where = error.where if isinstance(error, SetupError) else ()
+    agent = where[0] if where else None
+    if not isinstance(agent, BasicAgent):
+        return ()
+    plain = list(agents)
+    index = [str(each.get("id", "0")) == agent.id for each in plain]
+    if not any(index):
+        return ()
+    # of two agents with the same id the second one is wrong
+    base: DataPath = ("agents", len(index) - 1 - index[::-1].index(True))
+    return base + _inside(agent, where[-1], plain[int(base[1])], str(error))
+
+
+def _inside(agent: BasicAgent, part: object, plain: Mapping[str, Any], text: str) -> DataPath:
+    if isinstance(part, str):
+        return (part,) if part in plain else ()
+    for kind in BLOCK_KINDS:
+        for index, block in enumerate(getattr(agent, kind)):
+            given = plain.get(kind, ())
+            if block is part and index < len(given):
+                return (kind, index, *field_named_in(text, given[index]))
+    return ()
+
+
+def field_named_in(text: str, data: Any, path: DataPath = ()) -> DataPath:
+    """Return the path of the value that a message names as unknown; () if there is none.
+
+    >>> field_named_in("no body is called 'bxo'", {"type": "TouchSensor", "target": "bxo"})
+    ('target',)
+    """
+    if isinstance(data, Mapping):
+        parts: Iterable[tuple[str | int, Any]] = data.items()
+    elif isinstance(data, list | tuple):
+        parts = enumerate(data)
+    else:
+        unknown = isinstance(data, str) and any(
+            f"{word} {data!r}" in text for word in UNKNOWN_NAME_PHRASES
+        )
+        return path if unknown else ()
+    found = (field_named_in(text, each, (*path, part)) for part, each in parts)
+    return next(filter(None, found), ())

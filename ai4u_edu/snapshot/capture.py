@@ -3,7 +3,8 @@
 from collections.abc import Iterator, Sequence
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.cycle import ControlRequestor, Phase
+from ai4u_edu.agent.cycle import ControlRequestor
+from ai4u_edu.agent.state import Phase
 from ai4u_edu.blocks import (
     ArrowController,
     DiscreteArrowController,

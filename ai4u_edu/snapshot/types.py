@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from ai4u_edu.agent import LedgerEntry
-from ai4u_edu.agent.cycle import Phase, SimState
+from ai4u_edu.agent.state import Phase, SimState
 from ai4u_edu.blocks import (
     Legend,
     Percept,

@@ -9,7 +9,8 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError
-from ai4u_edu.recording.episode import PERSON, encode
+from ai4u_edu.recording.agent_record import PERSON
+from ai4u_edu.recording.episode import encode
 from ai4u_edu.recording.scene_export import without_brains
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach.scene_folder import SceneFolder, number_of

@@ -13,7 +13,7 @@ from ai4u_edu.base.parameters import Point
 from ai4u_edu.base.seeding import Seeds
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
-from ai4u_edu.world.build import core, make_shape, set_material
+from ai4u_edu.world.build import FastBody, core, make_shape, set_material
 from ai4u_edu.world.descriptions import (
     AreaDescription,
     BodyDescription,
@@ -21,7 +21,7 @@ from ai4u_edu.world.descriptions import (
     Variation,
 )
 from ai4u_edu.world.fields import AnyField, FieldBase
-from ai4u_edu.world.native import FastBody, contact_distances
+from ai4u_edu.world.native import contact_distances
 from ai4u_edu.world.region import Ground, Region
 from ai4u_edu.world.shapes import BodyShape, CircleShape, RingShape
 

@@ -8,7 +8,7 @@ import pytest
 
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.base.errors import AI4UError
-from ai4u_edu.page.server.exports import Exports
+from ai4u_edu.page.server.past import Exports
 from ai4u_edu.recording import Recorder, RecordingError, Replay
 from ai4u_edu.runtime import tick_monitor
 from ai4u_edu.runtime.runner import Runner

@@ -12,7 +12,7 @@ import pytest
 
 from ai4u_edu.games.jobs import Job, processes, run_jobs
 from ai4u_edu.games.jobs.processes import ProcessEngine
-from ai4u_edu.games.tournament import python_controller
+from ai4u_edu.games.tournament import drivers
 from ai4u_edu.games.tournament.contest import game_job
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.game import game
@@ -98,7 +98,7 @@ def played(source: str) -> dict[str, Any]:
 def surroundings(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     """Have programs see no processes but their own, or all, as where the system forbids that."""
     if request.param == "with others":
-        monkeypatch.setattr(python_controller, "MODULE", "tests.attacks.child_among_others")
+        monkeypatch.setattr(drivers, "CHILD_MODULE", "tests.attacks.child_among_others")
     return str(request.param)
 
 
@@ -133,13 +133,13 @@ def test_a_daemon_of_a_program_ends_with_the_process_that_plays(tmp_path: Path) 
     )
     code = (
         "import json, sys\n"
-        "from ai4u_edu.games.tournament import python_controller\n"
-        "python_controller.MODULE, entries = json.load(sys.stdin)\n"
+        "from ai4u_edu.games.tournament import drivers\n"
+        "drivers.CHILD_MODULE, entries = json.load(sys.stdin)\n"
         "from ai4u_edu.games.tournament.game import game\n"
         "game({'name': 'sumo'}, 0, entries)\n"
     )
     entries = [each.model_dump_json() for each in (program(source), scripted())]
-    text = f'["{python_controller.MODULE}", [{", ".join(entries)}]]'
+    text = f'["{drivers.CHILD_MODULE}", [{", ".join(entries)}]]'
     env = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     pipe = subprocess.PIPE
     with subprocess.Popen([sys.executable, "-c", code], stdin=pipe, env=env, text=True) as player:

@@ -9,7 +9,7 @@ from ai4u_edu.blocks.brains.links.link import (
     Reply,
     ResetRequest,
 )
-from ai4u_edu.blocks.brains.patience import YIELD_AFTER_S, YIELDING_WAIT_S
+from ai4u_edu.blocks.brains.remote import YIELD_AFTER_S, YIELDING_WAIT_S
 from tests.blocks.scripted_link import FORWARD, ScriptedLink, sim_with_link, two_agents
 
 RECEIVE_TIMEOUT_S = 2.0

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from ai4u_edu.blocks.brains.links.udp import MAX_DRAINED, UdpSocket
+from ai4u_edu.blocks.brains.links.ai4u import MAX_DRAINED, UdpSocket
 from tests.waiting import LIMIT_MS, LIMIT_S
 
 

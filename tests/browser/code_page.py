@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ai4u_edu.page.server import vendor_files
+from ai4u_edu.page.server import web_files
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
 from tests.waiting import LIMIT_MS, LIMIT_S
@@ -106,8 +106,8 @@ def use_stand_in(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     package.mkdir()
     (package / "__init__.py").write_text("")
     (package / "host.py").write_text(HOST)
-    monkeypatch.setattr(vendor_files, "_PROGRAM", package)
-    vendor_files._program.cache_clear()
+    monkeypatch.setattr(web_files, "_PROGRAM", package)
+    web_files._program.cache_clear()
 
 
 def load(page: Page, source: str) -> dict[str, Any]:

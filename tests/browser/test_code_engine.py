@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page
 
-from ai4u_edu.page.server import vendor_files
+from ai4u_edu.page.server import web_files
 from tests.browser.code_page import (
     ROOM,
     code_page,
@@ -37,7 +37,7 @@ def room(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Room]:
     with pytest.MonkeyPatch.context() as monkeypatch, served() as room:
         use_stand_in(tmp_path_factory.mktemp("stand-in"), monkeypatch)
         yield room
-    vendor_files._program.cache_clear()
+    web_files._program.cache_clear()
 
 
 @pytest.fixture(scope="module")

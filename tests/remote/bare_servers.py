@@ -13,7 +13,7 @@ from websockets.server import ServerProtocol
 from websockets.sync.server import ServerConnection, serve
 
 from ai4u_edu.remote.address import Address
-from ai4u_edu.remote.async_connection import AsyncConnection
+from ai4u_edu.remote.async_robot import AsyncConnection
 from ai4u_edu.remote.steps import Close, ConnectionLostError, Flow, Open, Receive, Send
 from ai4u_edu.remote.sync_connection import SyncConnection
 from tests.waiting import LIMIT_S

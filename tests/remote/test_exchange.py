@@ -3,7 +3,7 @@
 from typing import Any
 
 from ai4u_edu.blocks.brains.links.link import Observation, Reply, ResetRequest
-from ai4u_edu.page.server.scripts.exchange import Exchange, Turn
+from ai4u_edu.page.server.scripts.session import Exchange, Turn
 
 NOTHING: Any = None
 

@@ -9,7 +9,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.recording import Episode
-from ai4u_edu.recording.episode import PERSON
+from ai4u_edu.recording.agent_record import PERSON
 from ai4u_edu.recording.scene_export import export_scene
 from ai4u_edu.scenes import SceneDescription
 from ai4u_edu.teach import drives

@@ -5,12 +5,13 @@ from typing import Any, cast
 
 from pydantic import field_validator
 
-from ai4u_edu.base.errors import shown
+from ai4u_edu.base.errors import SetupError, shown
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.brains.brain import Answer, Brain
 from ai4u_edu.blocks.brains.controllers.controller import Controller
 from ai4u_edu.blocks.brains.controllers.script import ScriptController
+from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.blocks.percept import Percept
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world import WorldView
@@ -68,3 +69,32 @@ class LocalBrain(Brain):
     @property
     def _controller(self) -> Controller:
         return cast(Controller, self.controller)  # the validator wraps functions
+
+
+def as_brain(given: object) -> Brain:
+    """Return a brain unchanged, or a LocalBrain for a controller or a function.
+
+    Raises:
+        SetupError: the value is none of these.
+    """
+    if isinstance(given, Brain):
+        return given
+    if can_drive(given):
+        return LocalBrain(controller=given)  # type: ignore[arg-type]  # can_drive checked it
+    got = repr(given)
+    if isinstance(given, type):
+        got = _("the class {name}", name=given.__name__)
+    raise SetupError(
+        _(
+            "expected a brain, a controller or a function from percept to action, got {got}; "
+            "a brain is made as in LocalBrain(controller=WASDRBMoveController())",
+            got=got,
+        )
+    )
+
+
+def can_drive(given: object) -> bool:
+    """Return True for a controller or a function, which a LocalBrain can hold."""
+    if isinstance(given, Controller):
+        return True
+    return callable(given) and not isinstance(given, type | Parameterized)

@@ -11,7 +11,7 @@ from starlette.routing import Route
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.games.jobs import Job
 from ai4u_edu.games.jobs.isolated import IsolatedJobs
-from ai4u_edu.games.tournament.game_page import game_page
+from ai4u_edu.games.tournament.page import game_page
 from ai4u_edu.games.tournament.run import GAMES, PAGE
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import translate

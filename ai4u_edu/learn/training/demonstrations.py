@@ -19,7 +19,7 @@ from ai4u_edu.blocks import Actuator
 from ai4u_edu.learn.envs.spaces_of import Observer, action_space_of, outputs_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import AgentRecord, Episode, RecordingError, Replay
-from ai4u_edu.recording.episode import PERSON
+from ai4u_edu.recording.agent_record import PERSON
 from ai4u_edu.recording.player import Player
 from ai4u_edu.scenes import Scene, SceneDescription
 

@@ -16,18 +16,14 @@ from rich.console import Console
 from rich.table import Table
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.agent.episode_options import (
-    AGENT_NUMBERS,
-    DeclaredNumber,
-    declared_numbers,
-    named_blocks,
-)
+from ai4u_edu.agent.episode_options import AGENT_NUMBERS, named_blocks
 from ai4u_edu.base.csv_table import csv_table
 from ai4u_edu.base.errors import AI4UError, SetupError, suggest
 from ai4u_edu.base.parameters import DataPath, explain
 from ai4u_edu.blocks import Block, Controller, LocalBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.blocks.declared_numbers import DeclaredNumber, declared_numbers
 from ai4u_edu.games.jobs import Engine
 from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
 from ai4u_edu.learn.training.evaluating import Evaluation, between

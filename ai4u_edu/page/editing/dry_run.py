@@ -11,8 +11,8 @@ from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.plain import BlockPath
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.scenes import Scene
+from ai4u_edu.scenes.scene import field_named_in
 from ai4u_edu.scenes.serialization import PlainDataError
-from ai4u_edu.scenes.setup_errors import field_named_in
 
 
 class IdleBrain(Brain):

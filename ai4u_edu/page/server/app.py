@@ -28,9 +28,8 @@ from ai4u_edu.page.server.start_page import MissionsView, StartPage
 from ai4u_edu.page.server.state_routes import StateRoutes
 from ai4u_edu.page.server.token_auth import TokenAuth
 from ai4u_edu.page.server.token_page import PUBLIC_FILES, TokenPage
-from ai4u_edu.page.server.vendor_files import VendorFiles, program_zip
 from ai4u_edu.page.server.viser_lockdown import PROXY_SECRET
-from ai4u_edu.page.server.web_files import ALWAYS_ASK, WEB_PATHS
+from ai4u_edu.page.server.web_files import ALWAYS_ASK, WEB_PATHS, VendorFiles, program_zip
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.wire.native import PROBLEMS
 

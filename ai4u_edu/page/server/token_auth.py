@@ -3,7 +3,7 @@
 The terminal shows an address with the token. A browser that opens it gets a cookie, and is
 redirected to the address without the token; without a token it gets a page with a box for it.
 Programs send the token with each request, in the address or as ``Authorization: Bearer``. Scripts
-send it in their hello, see :mod:`ai4u_edu.page.server.scripts.lease_registry`.
+send it in their hello, see :mod:`ai4u_edu.page.server.scripts.agent_lease`.
 """
 
 import hashlib

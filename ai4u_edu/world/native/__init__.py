@@ -20,16 +20,12 @@ from ai4u_edu.world.native.chipmunk import (
     step_function,
 )
 from ai4u_edu.world.native.grid import CompiledGrid, GridArrays, compile_grid
-from ai4u_edu.world.native.objects import FastBody, FastCircle, FastPoly
 from ai4u_edu.world.native.segments import Segments, is_compiled, make_segments
 
 __all__ = [
     "IS_NATIVE",
     "MOTION",
     "CompiledGrid",
-    "FastBody",
-    "FastCircle",
-    "FastPoly",
     "GridArrays",
     "Impulses",
     "Segments",

@@ -127,8 +127,8 @@ def stop_once(folder: str) -> str:
 
 def play_among_others(**game_arguments: Any) -> Any:
     """Play a game whose programs see all processes."""
-    from ai4u_edu.games.tournament import python_controller
+    from ai4u_edu.games.tournament import drivers
     from ai4u_edu.games.tournament.game import game
 
-    python_controller.MODULE = "tests.attacks.child_among_others"
+    drivers.CHILD_MODULE = "tests.attacks.child_among_others"
     return game(**game_arguments)

@@ -10,7 +10,7 @@ import pytest
 from ai4u_edu import Scene
 from ai4u_edu.base.errors import AI4UError, SetupError
 from ai4u_edu.blocks.brains.network import MAX_LOADED_NETWORK_BYTES
-from ai4u_edu.games.tournament import python_controller
+from ai4u_edu.games.tournament import drivers
 from ai4u_edu.games.tournament.entry import parse_entry, with_names
 from ai4u_edu.games.tournament.game import game
 from ai4u_edu.games.tournament.sides import sides_of
@@ -173,8 +173,8 @@ STAND = "def decide(percept):\n    return {'move': [0, 0, 0, 0]}\n"
 @pytest.fixture(autouse=True)
 def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let no process be ended before it had the time to answer or to end by itself."""
-    monkeypatch.setattr(python_controller, "SILENCE_LIMIT_S", LIMIT_S)
-    monkeypatch.setattr(python_controller, "END_TIMEOUT_S", LIMIT_S)
+    monkeypatch.setattr(drivers, "SILENCE_LIMIT_S", LIMIT_S)
+    monkeypatch.setattr(drivers, "END_TIMEOUT_S", LIMIT_S)
 
 
 @pytest.mark.slow
@@ -203,7 +203,7 @@ def test_a_program_that_fails_loses(source: str, told: str, tmp_path: Path) -> N
 def test_a_program_that_closes_its_output_and_goes_on_loses(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(python_controller, "END_TIMEOUT_S", 0.1)
+    monkeypatch.setattr(drivers, "END_TIMEOUT_S", 0.1)
     bad, good = programs(tmp_path, SILENT, STAND)
     result = played(good, bad, trust_python=True)
     assert result["forfeit"] == 1

@@ -8,8 +8,8 @@ from typing import IO
 
 import pytest
 
-from ai4u_edu.games.tournament import python_controller
-from ai4u_edu.games.tournament.python_controller import MAX_WAITING_LINES, LineReader
+from ai4u_edu.games.tournament import drivers
+from ai4u_edu.games.tournament.drivers import MAX_WAITING_LINES, LineReader
 from tests.waiting import LIMIT_S, until
 
 MAX_BYTES = 8
@@ -18,7 +18,7 @@ MAX_BYTES = 8
 @pytest.fixture(autouse=True)
 def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a reader's end wait for its thread as long as that takes."""
-    monkeypatch.setattr(python_controller, "READER_END_TIMEOUT_S", LIMIT_S)
+    monkeypatch.setattr(drivers, "READER_END_TIMEOUT_S", LIMIT_S)
 
 
 @pytest.fixture

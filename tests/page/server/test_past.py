@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from ai4u_edu import LocalBrain, Scene
-from ai4u_edu.page.server import Rules, ServerThread, exports, past, room_app
+from ai4u_edu.page.server import Rules, ServerThread, past, room_app
 from ai4u_edu.page.server.past import WRITERS
 from ai4u_edu.recording import Episode, Recorder, RecordingError, Replay
 from ai4u_edu.recording.episode import decode
@@ -118,7 +118,7 @@ def test_one_that_was_made_is_not_made_again(fresh: str, monkeypatch: pytest.Mon
 def test_simultaneous_exports_share_one_file_and_the_queue_has_a_limit(
     fresh: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(exports, "MAX_QUEUED", 1)
+    monkeypatch.setattr(past, "MAX_QUEUED", 1)
     is_going_on, made = Event(), list[Path]()
 
     def write(replay: Replay, path: Path) -> Path:
@@ -150,7 +150,7 @@ def test_simultaneous_exports_share_one_file_and_the_queue_has_a_limit(
 def test_those_who_wait_leave_connections_for_others(
     fresh: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(exports, "MAX_WAITING", 2)
+    monkeypatch.setattr(past, "MAX_WAITING", 2)
     is_going_on = Event()
 
     def write(replay: Replay, path: Path) -> Path:

@@ -12,8 +12,12 @@ from ai4u_edu.base.errors import text_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.frames import EXTENSION, FramesProtocol
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
-from ai4u_edu.page.server.scripts.agent_lease import AgentLease, RefusalError
-from ai4u_edu.page.server.scripts.lease_registry import LeaseRegistry, wrong_version
+from ai4u_edu.page.server.scripts.agent_lease import (
+    AgentLease,
+    LeaseRegistry,
+    RefusalError,
+    wrong_version,
+)
 from ai4u_edu.page.server.scripts.outbox import Outbox
 from ai4u_edu.page.server.scripts.report import NoReport, ScriptLog
 from ai4u_edu.page.server.scripts.session import Session, is_request_for_time
