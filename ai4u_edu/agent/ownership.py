@@ -1,4 +1,4 @@
-"""Which agent a block belongs to.
+"""The one agent that each block belongs to.
 
 A block belongs to one agent at a time, since it keeps state for its agent, such as the best
 distance so far. Two agents that share a block would silently corrupt it. So an agent claims its
