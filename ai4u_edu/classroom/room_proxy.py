@@ -1,6 +1,6 @@
 """Reverse proxy for the pages of rooms: HTTP by httpx, WebSockets by websockets."""
 
-from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, Iterable
+from collections.abc import Awaitable, Callable, Coroutine, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
@@ -127,13 +127,16 @@ class RoomProxy:
             response = TextResponse(_("Your world does not answer. Reload in a moment."), 503)
             await response(scope, receive, send)
             return
-        response = StreamingResponse(_body_of(answer), answer.status_code)
+        response = StreamingResponse(answer.aiter_raw(), answer.status_code)
         response.raw_headers = [
             (name.lower(), value)
             for name, value in answer.headers.raw
             if name.decode("latin-1").lower() not in _HOP_BY_HOP
         ]
-        await response(scope, receive, send)
+        try:
+            await response(scope, receive, send)
+        finally:  # also of an answer that nobody waits for any more
+            await answer.aclose()
 
     async def websocket(
         self, room: RoomAddress, seat: int, scope: Scope, receive: Receive, send: Send
@@ -227,14 +230,6 @@ class RoomProxy:
             (ROLE_HEADER, "student" if seat else "teacher"),
             (SEAT_HEADER, str(seat)),
         ]
-
-
-async def _body_of(answer: httpx.Response) -> AsyncIterator[bytes]:
-    try:
-        async for part in answer.aiter_raw():
-            yield part
-    finally:
-        await answer.aclose()
 
 
 async def _upward(page: WebSocket, there: ClientConnection) -> None:
