@@ -149,6 +149,6 @@ def test_parts_of_scenes_and_their_own_players() -> None:
     own = {name: each.own_player() for name, each in scenes.items()}
     assert {each.name for each in own.values() if each is not None} == {OWN_PLAYER}
     without = [name for name, each in own.items() if each is None]
-    assert without == ["draw_figure", "endless_line", "endless_maze", "endless_rescue"]
+    assert without == ["endless_rescue"]
     duels = {each["name"]: each["is_duel"] for each in _library()}
     assert duels == {name: not each.sides.is_race for name, each in scenes.items()}
