@@ -102,6 +102,9 @@ def test_build_opens_an_empty_plate(world: World, page: Page) -> None:
     page.get_by_role("button", name="Build").click()
     page.wait_for_url(world.url)
     assert [body.name for body in world.editor.state.description.bodies] == ["robot"]
+    # the next page shows what there is to build with, on a phone, too
+    kept = "['panel-tab', 'panel-folded-small'].map((key) => localStorage['ai4u-' + key])"
+    assert page.evaluate(kept) == ['"build"', "false"]
 
 
 def test_saved_scenes_are_among_those_to_play(world: World, page: Page, tmp_path: Path) -> None:

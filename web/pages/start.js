@@ -4,6 +4,7 @@ import { syncMissions } from "../classroom/student/missions.js";
 import { syncStars } from "../classroom/student/stars.js";
 import { element, find } from "../shared/dom.js";
 import { ask, tell } from "../shared/dialog.js";
+import { remember } from "../shared/storage.js";
 import { t } from "../shared/text.js";
 import { islandTitle } from "../missions/islands.js";
 import { assignedMission, progressOf, setOpenMission } from "../missions/progress.js";
@@ -33,7 +34,12 @@ for (const [card, section] of sections) {
   });
 }
 if (location.hash === "#play") show(find("#scenes"));
-find("#build").addEventListener("click", () => open({ name: EMPTY_SCENE }, t("My scene")));
+find("#build").addEventListener("click", async () => {
+  if (!(await open({ name: EMPTY_SCENE }, t("My scene")))) return;
+  // whoever begins to build sees what there is to build with, on a phone, too
+  remember("panel-tab", "build");
+  for (const key of ["panel-folded", "panel-folded-small"]) remember(key, false);
+});
 watchSharedScene(goToWorld);
 showPresent();
 showScenes();
@@ -63,18 +69,21 @@ function show(shown) {
  * Open a scene in the world, after a question if the present one has unsaved changes.
  * @param {{name: string} | {saved: string}} wanted one of the library, or a saved one
  * @param {string} title
+ * @returns {Promise<boolean>} true if it was opened
  */
 async function open(wanted, title) {
-  if (isOpening) return;
+  if (isOpening) return false;
   isOpening = true;
   try {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return;
+    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return false;
     find("main").setAttribute("aria-busy", "true");
     await request("api/scene", wanted);
     goToWorld();
+    return true;
   } catch (error) {
     await tell(t("The scene can't be opened"), error.message);
+    return false;
   } finally {
     find("main").removeAttribute("aria-busy");
     isOpening = false;
