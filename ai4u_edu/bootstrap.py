@@ -42,9 +42,10 @@ def _translations() -> gettext.NullTranslations:
         short = code.partition(".")[0].replace("-", "_").partition("_")[0].lower()
         if short == "en":
             break
-        for file in sorted(folder.glob(short + "*/LC_MESSAGES/ai4u_edu.mo")) if short else []:
-            with file.open("rb") as opened:
-                return gettext.GNUTranslations(opened)
+        for file in sorted(folder.glob("*/LC_MESSAGES/ai4u_edu.mo")):
+            if file.parts[-3].partition("_")[0] == short:
+                with file.open("rb") as opened:
+                    return gettext.GNUTranslations(opened)
     return gettext.NullTranslations()
 
 
