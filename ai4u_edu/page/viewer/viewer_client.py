@@ -5,7 +5,7 @@ from concurrent.futures import Future
 from typing import Literal, Protocol
 from urllib.parse import unquote
 
-from viser import ClientHandle
+from viser import ClientHandle, InitialCameraConfig
 
 from ai4u_edu.page.editing import ChangeResult
 from ai4u_edu.page.viewer.backend.local_server import LocalServer
@@ -51,6 +51,7 @@ class ViewerClient:
     def __init__(
         self,
         client: ClientHandle,
+        initial_camera: InitialCameraConfig,
         asked: str = "",
         address: str = "",
         page_id: str = "",
@@ -78,7 +79,7 @@ class ViewerClient:
         """Choices about options, by option; the page's panel has the same."""
         self.snap_m = 0.0
         """Distance (m) of the grid to which dragged things snap; 0 for none."""
-        self.view = View(client)
+        self.view = View(client, initial_camera)
         """Its camera."""
         self._is_smooth = is_smooth
         self.agent = asked
@@ -225,7 +226,13 @@ class ViewerClients(Mapping[int, ViewerClient]):
             is_dark = bool(self._header(new, DARK_HEADER))
             page_id = self._header(new, PAGE_ID_HEADER)
             viewer_client = ViewerClient(
-                clients[new], asked, address, page_id, is_dark=is_dark, is_smooth=self._is_smooth
+                clients[new],
+                self._server.initial_camera,
+                asked,
+                address,
+                page_id,
+                is_dark=is_dark,
+                is_smooth=self._is_smooth,
             )
             viewer_client.settle(self._ids)
             if is_dark:

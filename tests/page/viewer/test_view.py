@@ -31,7 +31,8 @@ class Watched:
     def __init__(self, viewer: Viewer, here: Page) -> None:
         (client,) = viewer.server.get_clients().values()
         self.now = 100.0
-        self.page, self.client, self.view = here, client, View(client, clock=lambda: self.now)
+        self.page, self.client = here, client
+        self.view = View(client, viewer.server.initial_camera, clock=lambda: self.now)
 
     @property
     def camera(self) -> CameraHandle:
@@ -112,6 +113,20 @@ def test_stale_camera_reports_are_ignored(watched: Watched, runner: Runner) -> N
     watched.report((3.0, 3.0, 3.0), size=(500, 800))  # from before our message came
     watched.view.update(runner.latest, "0")
     assert watched.camera.position == pytest.approx(place(whole(runner.latest, 500 / 800)))
+
+
+@pytest.mark.parametrize("has_arrived", [False, True])
+def test_a_page_that_goes_to_its_initial_camera_once_more_is_put_back(
+    watched: Watched, runner: Runner, has_arrived: bool
+) -> None:
+    wide = place(whole(runner.latest, 1.6))
+    watched.report((3.0, 3.0, 3.0), size=(1280, 800))
+    watched.view.update(runner.latest, "0")
+    if has_arrived:
+        watched.report(wide, size=(1280, 800))
+    watched.report(place(whole(runner.latest)), size=(1280, 800))
+    watched.view.update(runner.latest, "0")
+    assert watched.camera.position == pytest.approx(wide)
 
 
 def test_a_report_that_comes_too_late_is_nobodys_move(watched: Watched, runner: Runner) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from enum import StrEnum
 
 import numpy as np
-from viser import CameraHandle, ClientHandle, SceneApi
+from viser import CameraHandle, ClientHandle, InitialCameraConfig, SceneApi
 
 from ai4u_edu.page.viewer.scene.arena import arena_size, camera_bounds
 from ai4u_edu.page.viewer.scene.framing import (
@@ -173,11 +173,18 @@ class View:
 
     Args:
         client: the page.
+        initial_camera: of new pages.
         clock: seconds; to be replaced in tests.
     """
 
-    def __init__(self, client: ClientHandle, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        client: ClientHandle,
+        initial_camera: InitialCameraConfig,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._client = client
+        self._initial_camera = initial_camera
         self._clock = clock
         self.mode = Mode.ARENA
         self.opening = Opening.NONE
@@ -332,6 +339,9 @@ class View:
         """
         if _same(camera.position, self._sent):
             self._has_arrived = True
+        elif _same(camera.position, self._initial_camera.position):
+            # a slow browser puts its camera there after what we sent: it is sent again
+            self._bounds = None
         elif self._has_arrived and not any(_same(camera.position, each) for each in self._known):
             self._is_moved_by_user = True
 
