@@ -106,9 +106,9 @@ def measure(
             turn: dict[bool, Turn] = {}
             for practises in (pair % 2 == 0, pair % 2 == 1):  # growing load is in both alike
                 practice.resume() if practises else practice.suspend()
-                time.sleep(SETTLING_S)
+                time.sleep(SETTLING_S)  # real time: ticks of the turn before are done by then
                 began = time.monotonic()
-                time.sleep(seconds)
+                time.sleep(seconds)  # real time: length of a turn
                 turn[practises] = began, time.monotonic()
             turns.append(turn)
         if not practice.is_running() or practice.status() == psutil.STATUS_ZOMBIE:

@@ -112,7 +112,7 @@ def main() -> None:
     parser.add_argument("--decisions", type=int, default=300_000, help="of a training, at most")
     parser.add_argument("--minutes", type=float, default=60.0)
     chosen = parser.parse_args()
-    end = time.monotonic() + 60 * chosen.minutes
+    end = time.monotonic() + 60 * chosen.minutes  # real time: a person says how long
     times: dict[str, dict[str, list[Time]]] = {
         scene: {name: [] for name in LEARNERS} for scene in chosen.scenes
     }

@@ -101,4 +101,4 @@ def _players(episode: Episode) -> str:
         sides.setdefault(agent.id.partition("_")[0], agent.driver)
     if len(sides) == 1:
         return next(iter(sides.values()))
-    return " – ".join(f"{driver} ({side})" for side, driver in sides.items())  # noqa: RUF001
+    return " – ".join(f"{driver} ({side})" for side, driver in sides.items())  # noqa: RUF001  # a dash
