@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
-from ai4u_edu.missions.checks import Following
+from ai4u_edu.missions.check import Following
 from ai4u_edu.missions.events import Decision, Driver, Event, PersonAnswer, SeenPage
 from ai4u_edu.missions.mission import Mission
 from ai4u_edu.scenes import SceneDescription

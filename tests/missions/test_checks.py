@@ -13,7 +13,8 @@ from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.errors import ParameterError
 from ai4u_edu.blocks import LocalBrain
 from ai4u_edu.locale import Text
-from ai4u_edu.missions.checks import AnyCheck, Check, Following
+from ai4u_edu.missions.check import Check, Following
+from ai4u_edu.missions.checks import AnyCheck
 from ai4u_edu.missions.events import Decision, Event, PersonAnswer, SeenPage, decision_of
 
 CHECK: TypeAdapter[Check] = TypeAdapter(AnyCheck)

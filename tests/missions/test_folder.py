@@ -11,7 +11,7 @@ import pytest
 
 from ai4u_edu.base.errors import SceneError
 from ai4u_edu.missions import mission_map, mission_schema
-from ai4u_edu.missions.checks import Check
+from ai4u_edu.missions.check import Check
 from ai4u_edu.missions.mission import (
     CONTROLS,
     MAX_FILES,
