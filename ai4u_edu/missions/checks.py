@@ -193,8 +193,8 @@ class IsPaid(Check):
     """A reward term is paid, several times in one episode."""
 
     type: Literal["is_paid"] = "is_paid"
-    reward: Annotated[str, StringConstraints(max_length=80)] = ""
-    """Name of the term; empty for any."""
+    reward: Annotated[str, StringConstraints(min_length=1, max_length=80)]
+    """Name of the term: with any term, a small reward on the way would do."""
     times: Times = 1
 
     def follow(self) -> Follow:
@@ -204,13 +204,12 @@ class IsPaid(Check):
             now: Decision = yield _counted(count, self.times)
             if now.episode != episode:
                 count, episode = 0, now.episode
-            paid = now.terms.values() if not self.reward else [now.terms.get(self.reward, 0.0)]
-            count += max(paid, default=0.0) > 0
+            count += now.terms.get(self.reward, 0.0) > 0
 
     def fit(self, agent: BasicAgent) -> None:
         """Check that the agent is paid such a reward."""
         names = [reward.name for reward in agent.rewards]
-        if self.reward and self.reward not in names:
+        if self.reward not in names:
             raise SetupError(
                 _(
                     "the robot gets no reward {reward!r}; {hint}",

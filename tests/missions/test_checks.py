@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from pydantic import TypeAdapter
+from pydantic import TypeAdapter, ValidationError
 
 from ai4u_edu import Scene
 from ai4u_edu.agent.cycle import ControlRequestor
@@ -73,7 +73,7 @@ KINDS: list[dict[str, Any]] = [
     {"type": "turns", "degrees": 90},
     {"type": "reaches_goal", "times": 2},
     {"type": "reaches_goal", "times": 2, "of": 3},
-    {"type": "is_paid", "times": 2},
+    {"type": "is_paid", "reward": "touch", "times": 2},
     {"type": "holds", "ranges": [{"what": "speed", "above": 1}]},
     {"type": "holds", "ranges": [{"what": "speed", "above": 1}], "word": "fast"},
     {"type": "starts", "times": 2},
@@ -169,7 +169,13 @@ def test_rewards_are_counted_in_one_episode() -> None:
     paid = replace(STILL, terms={"touch": 1.0})
     assert not see(check, paid, replace(paid, episode=2), replace(STILL, terms={"touch": -1.0}))
     assert see(check, paid, paid)
-    assert see(following("is_paid"), replace(STILL, terms={"x": 0.1}))
+
+
+def test_a_reward_that_has_to_be_paid_has_a_name() -> None:
+    with pytest.raises(ValidationError, match="reward"):
+        following("is_paid")
+    small = replace(STILL, terms={"closer": 0.1, "touch": 0.0})
+    assert not see(following("is_paid", reward="touch"), small)
 
 
 def test_ranges_have_to_hold_together_and_in_a_row() -> None:

@@ -29,10 +29,16 @@ from tests.missions.doing import Action, Doing
 from tests.missions.solutions import (
     SOLUTIONS,
     STOP,
+    TARGET,
+    TOUCH,
     WRONG_ROBOTS,
+    add_bodies,
+    add_reward,
     change_agent,
     move,
     program,
+    thing,
+    to,
 )
 
 MISSIONS = library_missions().by_name
@@ -235,6 +241,19 @@ def test_wrong_choices_do_not_pass(name: str) -> None:
         assert (do.run.index, do.is_done) == (index, False)
         do.answer(step.check.right)
     assert do.is_done
+
+
+def test_a_reward_on_the_way_is_not_the_targets() -> None:
+    do = Doing("build-6")
+    add_bodies(do, *(thing("wall", number, (2, 2 * number - 6)) for number in range(6)))
+    add_bodies(do, thing("target", 1, (-4, 0)))
+    add_reward(do, **TOUCH)
+    add_reward(do, type="MinDistReward", target=TARGET)
+    before = do.run.index
+    do.drive(to(TARGET), 20)
+    assert do.agent.ledger.terms["min_dist"] > 0
+    assert do.run.index == before
+    assert do.drive(to(TARGET))
 
 
 def test_chance_does_not_pass_in_a_few_starts() -> None:
