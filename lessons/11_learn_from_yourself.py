@@ -37,7 +37,17 @@ from ai4u_edu.lessons import (
     show,
     solution,
 )
-from ai4u_edu.lessons.exercises.lesson_11 import best_network, my_drives, one_drive, touched, track
+from ai4u_edu.lessons.exercises.lesson_11 import (
+    best_network,
+    lamp_drives,
+    lamp_successes,
+    lamp_world,
+    looked_at,
+    my_drives,
+    one_drive,
+    touched,
+    track,
+)
 from ai4u_edu.lessons.exercises.lesson_11_choice import (
     clone_of,
     conditions,
@@ -45,12 +55,6 @@ from ai4u_edu.lessons.exercises.lesson_11_choice import (
     show_choice,
     show_clone,
     worlds_reached,
-)
-from ai4u_edu.lessons.exercises.lesson_11_why import (
-    lamp_drives,
-    lamp_successes,
-    lamp_world,
-    looked_at,
 )
 
 # %% [markdown]

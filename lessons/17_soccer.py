@@ -23,7 +23,7 @@ import math
 
 from ai4u_edu import *
 from ai4u_edu.lessons import check, compare, film, hint, predict, progress, report, show, solution
-from ai4u_edu.lessons.exercises.lesson_17_pitch import (
+from ai4u_edu.lessons.exercises.lesson_17 import (
     METRE,
     behind,
     go_to,

@@ -11,8 +11,7 @@ from typing import Any
 import pytest
 
 from ai4u_edu import BasicAgent
-from ai4u_edu.blocks.brains.links.link import Observation, Reply, ResetRequest
-from ai4u_edu.blocks.brains.links.link_thread import LinkThread
+from ai4u_edu.blocks.brains.links.link import LinkThread, Observation, Reply, ResetRequest
 from ai4u_edu.remote import Robot
 from ai4u_edu.wire import native
 from tests.page.server.rooms import Room

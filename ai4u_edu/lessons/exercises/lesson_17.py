@@ -3,27 +3,28 @@
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from json import dumps
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ai4u_edu.lessons.calls import Calls, function_exercise
 from ai4u_edu.lessons.exercise import Done, NotYet, a_function, exercise, named
-from ai4u_edu.lessons.exercises.lesson_17_pitch import (
-    METRE,
-    SAME_WAY_RAD,
-    Place,
-    behind,
-    in_front,
-    lined_up,
-    practice,
-)
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
 from ai4u_edu.lessons.numeric import finite_numbers, is_close
 from ai4u_edu.lessons.rollouts import Drive, drives, seeds_of
 from ai4u_edu.lessons.student_errors import NOTHING_RETURNED
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.scenes import Scene
 
+METRE = 1 / (math.hypot(16.2, 9.2) + 5)
+"""A metre, in the unit of the pitch's position sensors."""
+_SAME_WAY_RAD = 0.5
+"""Largest angle between two directions that count as the same."""
+_GAP = 1.4 * METRE
+"""Distance from the ball of the place behind it."""
+_Place = Sequence[float] | npt.NDArray[np.float64]
 GOAL_OF_BLUE_X_M = -7
 DECISIONS_A_SECOND = 12
 PRACTICE_DECISIONS = 150
@@ -33,22 +34,63 @@ MAX_BALL_MOVE_M, MAX_BALL_DISTANCE_M = 0.3, 2.5
 """Limits of how far the ball has moved, and the robot is from it, once it is behind it."""
 
 
-def _angle(place: Place) -> float:
+def go_to(forward: float, left: float) -> dict[str, list[float]]:
+    """Return the action that drives towards a place: so far ahead of the robot, so far left."""
+    angle = math.atan2(left, forward)
+    return {"move": [float(abs(angle) < 0.5), max(-1.0, min(1.0, -2 * angle)), 0, 0]}
+
+
+def lined_up(ball: _Place, goal: _Place) -> bool:
+    """Return True if ball and goal lie in the same direction, seen from the robot."""
+    angle = math.atan2(ball[1], ball[0]) - math.atan2(goal[1], goal[0])
+    return abs(math.remainder(angle, math.tau)) < _SAME_WAY_RAD
+
+
+def behind(ball: _Place, goal: _Place, gap: float = _GAP) -> tuple[float, float]:
+    """Return the place behind the ball, seen from the goal: (ahead, left) of the robot."""
+    x, y = goal[0] - ball[0], goal[1] - ball[1]
+    length = math.hypot(x, y)
+    return float(ball[0] - gap * x / length), float(ball[1] - gap * y / length)
+
+
+def practice() -> Scene:
+    """Return the soccer scene with nobody in it but you and the ball."""
+    plain = Scene.load("soccer").plain()
+    plain["agents"] = plain["agents"][:1]
+    others = {"blue keeper", "orange striker", "orange keeper"}
+    plain["bodies"] = [each for each in plain["bodies"] if each["name"] not in others]
+    return Scene.loads(dumps(plain), name="practice")  # JSON is YAML as well
+
+
+def in_front(done: Drive) -> None:
+    """Put the striker between the ball and the goal, at the beginning."""
+    if done.steps == 0:
+        chance = np.random.default_rng(done.seed)
+        x, y, heading = chance.uniform(1.5, 5), chance.uniform(-3.5, 3.5), chance.uniform(-3, 3)
+        done.agent.body.move_to(float(x), float(y), heading=float(heading))
+
+
+def goals(strike: Any, games: int = 12) -> int:
+    """Return in how many games a striker scores that begins in front of the ball."""
+    return sum(each.won for each in drives("soccer", strike, list(range(games)), watch=in_front))
+
+
+def _angle(place: _Place) -> float:
     return math.atan2(place[1], place[0])
 
 
-def _steep(place: Place) -> float:
+def _steep(place: _Place) -> float:
     return math.atan(place[1] / place[0])
 
 
-ALMOST: Mapping[str, Callable[[Place, Place], bool]] = {
-    "wrap": lambda ball, goal: abs(_angle(ball) - _angle(goal)) < SAME_WAY_RAD,
-    "wrap ": lambda ball, goal: abs(_angle(ball[::-1]) - _angle(goal[::-1])) < SAME_WAY_RAD,
+ALMOST: Mapping[str, Callable[[_Place, _Place], bool]] = {
+    "wrap": lambda ball, goal: abs(_angle(ball) - _angle(goal)) < _SAME_WAY_RAD,
+    "wrap ": lambda ball, goal: abs(_angle(ball[::-1]) - _angle(goal[::-1])) < _SAME_WAY_RAD,
     "sign": lambda ball, goal: math.remainder(_angle(ball) - _angle(goal), math.tau) < 0.5,
     "sign ": lambda ball, goal: math.remainder(_angle(goal) - _angle(ball), math.tau) < 0.5,
-    "atan": lambda ball, goal: abs(_steep(ball) - _steep(goal)) < SAME_WAY_RAD,
+    "atan": lambda ball, goal: abs(_steep(ball) - _steep(goal)) < _SAME_WAY_RAD,
     "side": lambda ball, goal: (ball[1] > 0) == (goal[1] > 0),
-    "near": lambda ball, goal: math.dist(ball[:2], goal[:2]) < SAME_WAY_RAD,
+    "near": lambda ball, goal: math.dist(ball[:2], goal[:2]) < _SAME_WAY_RAD,
     "begin": lambda *_: False,
     "begin ": lambda *_: True,
 }
@@ -111,9 +153,9 @@ def same_direction(chance: np.random.Generator) -> Calls:
     return _("{count} pairs of directions, all of them right.", count=len(cases))
 
 
-def _directions(chance: np.random.Generator) -> list[tuple[Place, Place]]:
+def _directions(chance: np.random.Generator) -> list[tuple[_Place, _Place]]:
     """Return places of a ball and a goal, none of them at the limit of what counts as the same."""
-    cases: list[tuple[Place, Place]] = []
+    cases: list[tuple[_Place, _Place]] = []
     axes = (0.0, math.pi / 2, math.pi, -math.pi / 2)
     for number in range(60):
         towards = chance.uniform(-math.pi, math.pi) if number % 3 else math.pi + 0.01
@@ -130,7 +172,7 @@ def _directions(chance: np.random.Generator) -> list[tuple[Place, Place]]:
     return cases
 
 
-def _places(*places: Place) -> tuple[Any, ...]:
+def _places(*places: _Place) -> tuple[Any, ...]:
     """Return places as a percept has them: arrays of three numbers."""
     return tuple(np.array([*each, 0.0]) for each in places)
 
@@ -143,7 +185,7 @@ def _truth(given: Any) -> bool:
     return bool(given)
 
 
-def _shown(place: Place) -> str:
+def _shown(place: _Place) -> str:
     return _("({place:g} ahead, {place2:g} left)", place=place[0], place2=place[1])
 
 
@@ -177,7 +219,7 @@ def is_behind(chance: np.random.Generator) -> Calls:
         x, y = behind(ball, goal, gap)
         if not is_close(got, [x, y], 1e-4):
             way, length = goal - ball, math.dist(goal, ball)
-            slips: dict[str, Place] = {
+            slips: dict[str, _Place] = {
                 "begin": (0.0, 0.0),
                 "front": ball + gap * way / length,
                 "long": ball - gap * way,
@@ -281,7 +323,7 @@ class _Practice:
             self.is_there = moved <= MAX_BALL_MOVE_M and near and _in_line(ball, goal)
 
 
-def _in_line(ball: Place, goal: Place) -> bool:
+def _in_line(ball: _Place, goal: _Place) -> bool:
     """Return True if the robot is behind the ball, seen from the goal."""
     return lined_up(ball, goal) and math.hypot(*ball[:2]) < math.hypot(*goal[:2])
 

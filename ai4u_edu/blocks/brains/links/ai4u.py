@@ -10,8 +10,14 @@ from collections.abc import Callable
 
 from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.blocks.brains.brain import Command
-from ai4u_edu.blocks.brains.links.link import AgentSpec, LinkState, Observation, Reply, ResetRequest
-from ai4u_edu.blocks.brains.links.link_thread import LinkThread
+from ai4u_edu.blocks.brains.links.link import (
+    AgentSpec,
+    LinkState,
+    LinkThread,
+    Observation,
+    Reply,
+    ResetRequest,
+)
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
 from ai4u_edu.wire.agent_codec import AgentCodec
