@@ -27,14 +27,16 @@ def sentence_of(error: BaseException, agents: Iterable[BasicAgent] = ()) -> str:
     notes = [Text(" ({note})", {"note": note}) for note in getattr(error, "__notes__", ())]
     noted: str = join([*notes], "") if notes else ""
     text = shorten(text_of(error), MAX_SENTENCE_CHARS - min(len(noted), MAX_SENTENCE_CHARS // 2))
-    told = join([text, shorten(noted, MAX_SENTENCE_CHARS // 2)], "")
+    sentence = join([text, shorten(noted, MAX_SENTENCE_CHARS // 2)], "")
     name = type(error).__name__
     if isinstance(error, Exception):
-        return join([name, told], ": ")
+        return join([name, sentence], ": ")
     place = find_place(calls_of_error(error.__traceback__), agents)
     where = join([place.title, place.where], ", ") if place.where else place.title
     return _(
-        "{error} (raised by {place})", error=join([name, told], ": ") if told else name, place=where
+        "{error} (raised by {place})",
+        error=join([name, sentence], ": ") if sentence else name,
+        place=where,
     )
 
 

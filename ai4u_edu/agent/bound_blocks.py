@@ -214,7 +214,7 @@ class BoundBlocks:
         return Percept(self.layout, bytes(self._memory), percept.texts)
 
     def percept(self) -> Percept:
-        """Return the readings in memory as a percept; only text is read anew."""
+        """Return the readings in memory as a percept; only text is read again."""
         texts = (read(each, self.body, self.view) for each, read in self._text_sensors)
         return Percept(self.layout, bytes(self._memory), tuple(texts))
 

@@ -79,7 +79,7 @@ class ControlRequestor:
         spread_decisions: True gives each agent a time slot of its own to decide in; else all that
             decide equally often decide in the same tick.
         wait_for_key: True lets a page wait on each first frame until a person presses a key; only a
-            runner that is told to wait heeds it.
+            runner with ``wait_for_key`` does so.
 
     >>> from ai4u_edu import BasicAgent, CircleShape, LocalBrain, RBMoveActuator, World
     >>> world = World()
@@ -165,7 +165,7 @@ class ControlRequestor:
         if seed is None and self.is_seed_locked:
             seed = self.world.seeds.seed
         if seed is not None:
-            seed = checked_seed(seed)  # before any handler is told of the reset
+            seed = checked_seed(seed)  # before the first handler of the reset runs
         with self.options.applied(self.usual_options if options is None else options):
             for agent in self.agents:
                 if agent.before_the_reset.handlers:

@@ -24,7 +24,7 @@ def keys_of(agent: BasicAgent, brain: Brain | None = None) -> dict[str, list[str
 
     Args:
         agent: the agent to drive.
-        brain: the brain to ask; left out, the one that drives the agent now.
+        brain: the brain to ask; default: the one that drives the agent now.
     """
     controller = getattr(brain or active_brain(agent.brain), "controller", None)
     if not isinstance(controller, Controller):

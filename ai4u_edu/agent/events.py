@@ -38,11 +38,11 @@ class Event(Generic[A, *Details]):
 
     >>> event = Event("end_of_step")
     >>> @event.connect
-    ... def told(agent):
+    ... def note_end(agent):
     ...     print("a step ended")
     >>> event.fire(None)
     a step ended
-    >>> event.disconnect(told)
+    >>> event.disconnect(note_end)
     """
 
     def __init__(self, name: str) -> None:

@@ -28,8 +28,8 @@ class Room:
     Args:
         settings: of the room.
         warn: called with a sentence when something goes wrong later, in any thread.
-        tell: called with a line when something happens with a script, in a thread; left out,
-            nobody is told.
+        tell: called with a line when something happens with a script, in a thread; default:
+            nothing is reported.
 
     Raises:
         AI4UError: the scene or a file can't be used; the message says why.

@@ -80,8 +80,8 @@ def serve_world(
         allowed_hosts: host names of requests; see :mod:`ai4u_edu.page.server.host_origin`.
         proxy_hosts: host names of a reverse proxy in front; see there.
         viser_secret: secret of the world's viser; only a proxy may know it.
-        missions: returns the missions on the start page, at which pages also open other scenes;
-            left out, there is no start page. It needs an editor.
+        missions: returns the missions on the start page, at which pages also open other scenes; it
+            needs an editor. Default: no start page.
         class_feed: of the class that the world belongs to; pages show it.
         script_report: of what happens with scripts.
         options: modules that add to the page, each with a function ``page_option``, which takes the

@@ -36,7 +36,7 @@ REST_POLL_S, HELD_POLL_S = 0.1, 0.5
 STOP_S = 1.0
 """Time that the thread usually has to end; a block that does not return may keep it from that."""
 WORLD_REPLACED = _("another world has taken its place; connect again to drive there")
-"""Reason that the scripts of a replaced world are told."""
+"""Reason sent to the scripts of a replaced world."""
 
 
 class Runner:
@@ -354,7 +354,7 @@ class Runner:
         Args:
             sim: the other world. If it has no episode yet, one begins; else it continues where it
                 is.
-            recorder: of the other world. Left out, the present recorder listens to it from now on.
+            recorder: of the other world. Default: the present one, which listens to it from now on.
             seed: of the episode that begins.
         """
         return self.submit(lambda: self.replace_sim_now(sim, recorder, seed=seed))

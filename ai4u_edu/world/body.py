@@ -259,7 +259,7 @@ class Body(BodyView):
             self._world._physics.drop(self)
 
     def come_back(self) -> None:
-        """Put the body back to its described place; random values are sampled anew.
+        """Put the body back to its described place; random values are sampled again.
 
         Raises:
             WorldError: there is no room for it; then nothing changes.

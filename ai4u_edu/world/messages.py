@@ -51,12 +51,12 @@ class Messages:
         if not self._last:
             return
         bodies = self._world.bodies
-        spoken = [
+        candidates = [
             (listener.distance(bodies[name]), name, message)
             for name, message in self._last.items()
             if message.tick >= since and name != listener.name and name in bodies
         ]
-        for distance, name, message in sorted(spoken):
+        for distance, name, message in sorted(candidates):
             if distance <= message.reach and not bodies[name].fallen:
                 yield bodies[name], message
 

@@ -36,12 +36,12 @@ class Physics:
     """The space of an episode and what belongs to it.
 
     Attributes:
-        space: pymunk's space, built anew for each episode.
+        space: pymunk's space, a new one for each episode.
         owners: the body of each of its shapes.
         contacts: contacts between bodies.
         height: vertical motion.
         step: function that moves the space by one tick, in the plane only.
-        generation: grows whenever the space is built anew or its contents change.
+        generation: grows whenever the space is replaced or its contents change.
     """
 
     def __init__(self, settings: WorldSettings) -> None:

@@ -91,11 +91,8 @@ def decode_picture(data: str) -> Pixels:
 
 
 def _decode(file: bytes, kind: str) -> Pixels:
-    from PIL import (
-        Image,
-        ImageOps,
-        UnidentifiedImageError,
-    )  # only scenes with a picture wait for it
+    # only scenes with a picture wait for this import
+    from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
         with Image.open(io.BytesIO(file), formats=[kind.upper()]) as image:

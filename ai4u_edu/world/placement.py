@@ -62,7 +62,7 @@ class _Form:
         self.left, self.bottom, self.right, self.top = rectangle
 
     def grown(self, more: float) -> "_Form":
-        """Return the form grown by so many metres on all sides, in the plane."""
+        """Return the form grown by ``more`` metres on all sides, in the plane."""
         if not more:
             return self
         rectangle = self.left - more, self.bottom - more, self.right + more, self.top + more
@@ -131,7 +131,7 @@ class Places:
         self._bodies, self._kept_free = _OccupiedForms(), _OccupiedForms()
 
     def occupy(self, thing: Thing, clearance: float = 0.0) -> None:
-        """Mark a thing's place as occupied, and so many metres around it as kept free."""
+        """Mark a thing's place as occupied, and ``clearance`` metres around it as kept free."""
         if isinstance(thing, FloorDescription):
             self._ground = Ground([*self._ground.floors, (thing.top, Region(thing))])
         else:

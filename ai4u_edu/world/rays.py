@@ -75,7 +75,7 @@ class _RayCaster:
         self._miss = code_of(())
         self._segments = make_segments(len(self.angles))
         self._generation = -1
-        self._looker: BodyView | None = None
+        self._carrier: BodyView | None = None
         self._codes: dict[int, float] = {}
         self._bodies: dict[int, BodyView] = {}
         self._body_codes: dict[BodyView, float] = {}
@@ -87,16 +87,16 @@ class _RayCaster:
         """Position of the eye at the last cast: world frame, metres."""
         # a pair (x, y) is viewed as a complex number, so that turning is multiplying; for numpy, an
         # array of one number is half the work of a Python number
-        self._spokes = np.cos(self.angles) + 1j * np.sin(self.angles)
+        self._own_directions = np.cos(self.angles) + 1j * np.sin(self.angles)
         self._turn = np.zeros((), np.complex128)
         self.directions = self._segments.directions
         """Unit vector of each column at the last cast, world frame."""
         self._turned = self.directions.view(np.complex128)[:, 0]
-        self._turned[:] = self._spokes
+        self._turned[:] = self._own_directions
 
     def _aim(self, body: BodyView, reach: float) -> None:
         """Turn the directions with the body and find the first hit of each in the plane."""
-        if self._generation != self._physics.generation or self._looker is not body:
+        if self._generation != self._physics.generation or self._carrier is not body:
             self._update(body)
         forward, left, up = self.eye
         place, heading = _position(body._handle), _angle(body._handle)
@@ -105,13 +105,13 @@ class _RayCaster:
             x, y = x + cos * forward - sin * left, y + sin * forward + cos * left
         self.origin = x, y, body.z + up
         self._turn[()] = complex(cos, sin)
-        multiply(self._spokes, self._turn, self._turned)
+        multiply(self._own_directions, self._turn, self._turned)
         self._segments.cast(self._physics.space, x, y, reach, self._filter)
 
     def _update(self, body: BodyView) -> None:
         """Look up the codes of everything, after each change of the world's contents."""
         world = self._world
-        self._generation, self._looker = world.generation, body
+        self._generation, self._carrier = world.generation, body
         self._bodies = {shape_key(shape): owner for shape, owner in world.owners.items()}
         self._body_codes = {owner: self._code_of(owner.tags) for owner in self._bodies.values()}
         self._codes = {key: self._body_codes[owner] for key, owner in self._bodies.items()}

@@ -38,7 +38,7 @@ class Registry:
         bodies: by name, in the order of addition.
         floors: description and region, as sampled for this episode.
         areas: regions, as sampled for this episode.
-        has_random: True if something is sampled anew at each reset.
+        has_random: True if something is sampled at each reset.
         field: description of the field that is generated at each reset; None for none.
         placed: things that the field has put somewhere in this episode, by name.
     """

@@ -109,7 +109,7 @@ class World(NoStrayAttributes):
 
     @property
     def generation(self) -> int:
-        """A number that grows whenever the space is built anew or its contents change."""
+        """A number that grows whenever the space is replaced or its contents change."""
         return self._physics.generation
 
     @property
@@ -217,7 +217,7 @@ class World(NoStrayAttributes):
     def put_back(self, name: str) -> None:
         """Put one body back to its described place, as a reset does; all others stay.
 
-        Its random values are sampled anew. It is not held and touches nothing then, and pushes
+        Its random values are sampled again. It is not held and touches nothing then, and pushes
         aside what stands in its place.
 
         Raises:
@@ -232,7 +232,7 @@ class World(NoStrayAttributes):
         physics.height.update_support(body)
 
     def rebuild(self) -> None:
-        """Build the physics anew, with all bodies in their places of this episode.
+        """Build new physics, with all bodies in their places of this episode.
 
         Raises:
             WorldError: there is no room for something random; then nothing changes.
@@ -377,9 +377,9 @@ class World(NoStrayAttributes):
     # -- running ---------------------------------------------------------------------------------
 
     def reset(self, seed: int | None = None) -> None:
-        """Put every body back to its described place, in a space that is built anew.
+        """Put every body back to its described place, in a new space.
 
-        Random values are sampled anew.
+        Random values are sampled again.
 
         Args:
             seed: the episode's seed; by default it follows from the last one.

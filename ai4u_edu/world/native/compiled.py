@@ -1,8 +1,8 @@
 """The library of rays.c, which is optional: it is compiled when the package is built.
 
 Without it everything gives the same bits, more slowly. Its name holds a hash of the source, so that
-in a checkout a library of another version is not used; ``python .ci/compile_rays.py`` makes
-it anew. ``AI4U_COMPILED=0`` switches it off.
+in a checkout a library of another version is not used; ``python .ci/compile_rays.py``
+compiles it again. ``AI4U_COMPILED=0`` switches it off.
 """
 
 import ctypes
