@@ -343,11 +343,21 @@ class Opens(Check):
     listens = SeenPage
     type: Literal["opens"] = "opens"
     tab: Tab
+    way: Literal["", "python", "blocks"] = ""
+    """How the program in the tab "Code" has to be written; empty for any."""
+
+    @model_validator(mode="after")
+    def _has_a_way_in_code_alone(self) -> Self:
+        if self.way and self.tab != "code":
+            raise ValueError(
+                _("expected tab: code with a way of writing a program, got {tab!r}", tab=self.tab)
+            )
+        return self
 
     def follow(self) -> Follow:
         """Wait for the tab."""
         view: SeenPage = yield ""
-        while view.tab != self.tab:
+        while view.tab != self.tab or self.way not in ("", view.way):
             view = yield ""
 
 

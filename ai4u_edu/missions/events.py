@@ -68,6 +68,9 @@ class SeenPage:
     """The tab that a person has open in the page."""
 
     tab: str
+    way: str = ""
+    """``python`` or ``blocks``, as the program in the tab "Code" is written; empty before that was
+    open."""
 
 
 @dataclass(frozen=True)

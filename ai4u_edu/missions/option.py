@@ -39,6 +39,7 @@ from ai4u_edu.scenes import Scene
 
 KEY = "mission"
 MAX_ANSWER_CHARS = 200
+MAX_WAY_CHARS = 20
 MAX_SOURCE_CHARS, MAX_VALUE_CHARS = 20_000, 20_000
 """Length of a person's function, and of what it returned, as JSON."""
 
@@ -60,6 +61,8 @@ class SeeMission(PageCommand, tag="mission_see"):
 
     tab: Name
     """Name of the open tab of the panel; empty if the panel is folded."""
+    way: Annotated[str, Meta(max_length=MAX_WAY_CHARS)] = ""
+    """``python`` or ``blocks``, as the program in the tab "Code" is written; empty before."""
     is_watching: bool = False
     """True if another page drives the robot: what it does is not this person's."""
 
@@ -250,7 +253,7 @@ class MissionOption:
 
             def see() -> None:
                 run.agent, run.is_watching = agent, command.is_watching
-                run.see(SeenPage(command.tab))
+                run.see(SeenPage(command.tab, command.way))
 
             await page.result(self._runner.submit(see))
         return Answer()

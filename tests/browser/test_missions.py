@@ -81,7 +81,11 @@ def kept(desk: PanelPage, key: str) -> Any:
 def test_a_reload_goes_on_with_the_step(desk: PanelPage) -> None:
     assert desk.panel.commands("mission_open") == [{"mission": "drive-1", "step": 1}]
     desk.until(lambda: desk.panel.commands("mission_see"))
-    assert desk.panel.commands("mission_see")[-1] == {"tab": "drive", "is_watching": False}
+    assert desk.panel.commands("mission_see")[-1] == {
+        "tab": "drive",
+        "way": "",
+        "is_watching": False,
+    }
     expect(card(desk)).to_contain_text("First drive")
     expect(card(desk)).to_contain_text("Step 2 of 3")
     expect(card(desk)).to_contain_text("1 of 2 times")

@@ -74,8 +74,8 @@ class Doing:
     def is_done(self) -> bool:
         return self.run.is_done
 
-    def open(self, tab: str) -> None:
-        self.run.see(SeenPage(tab))
+    def open(self, tab: str, way: str = "") -> None:
+        self.run.see(SeenPage(tab, way))
         self.go_on()
 
     def answer(self, text: str) -> None:

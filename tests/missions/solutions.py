@@ -217,7 +217,7 @@ def think_4(do: Doing) -> None:
 
 
 def code_1(do: Doing) -> None:
-    do.open("code")
+    do.open("code", "python")
     do.drive(move(0.4, 0.3))
     do.again()
     do.drive(move(0.4, -0.3))
@@ -360,7 +360,7 @@ def sense_9(do: Doing) -> None:
 
 
 def think_5(do: Doing) -> None:
-    do.open("code")
+    do.open("code", "blocks")
     do.drive(lambda agent: move(0, -agent.percept["bearing"][0])(agent))
     do.new_start()
     do.drive(by_bearing, 6000)
@@ -372,7 +372,7 @@ def by_bearing(agent: BasicAgent) -> Action:
 
 
 def think_6(do: Doing) -> None:
-    do.open("code")
+    do.open("code", "blocks")
     do.drive(lambda agent: to_seen("food", agent, move(0, 0.4)))
     do.new_start()
     do.drive(by_need, 6000)
@@ -384,7 +384,7 @@ def by_need(agent: BasicAgent) -> Action:
 
 
 def think_7(do: Doing) -> None:
-    do.open("code")
+    do.open("code", "blocks")
     do.drive(lambda _: {"move": [0.2, 0.4]})
     do.again()
     do.drive(brake_one_wheel, 6000)
@@ -396,7 +396,7 @@ def brake_one_wheel(agent: BasicAgent) -> Action:
 
 
 def think_8(do: Doing) -> None:
-    do.open("code")
+    do.open("code", "blocks")
     do.drive(lambda agent: after_runner(agent, 1), 4000)
     do.new_start()
     do.drive(after_free_runner, 12000)

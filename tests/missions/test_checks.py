@@ -203,6 +203,9 @@ def test_pages_and_answers_are_seen() -> None:
     check = following("opens", tab="code")
     assert not see(check, STILL, SeenPage("drive"))
     assert see(check, SeenPage("code"))
+    blocks = following("opens", tab="code", way="blocks")
+    assert not see(blocks, SeenPage("code", "python"), SeenPage("build", "blocks"))
+    assert see(blocks, SeenPage("code", "blocks"))
     reads = following("reads", question="How far?", what="level", within=0.05)
     assert not see(reads, PersonAnswer("0.5", None))
     assert reads.words == "Drive a little first."

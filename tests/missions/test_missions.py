@@ -212,6 +212,21 @@ def test_hints_of_the_page_are_for_mistakes_that_a_judge_finds(exercise: str) ->
     assert set(PAGE_HINTS[exercise]) <= set(find(exercise).hints)
 
 
+def test_a_way_that_has_to_be_chosen_is_waited_for() -> None:
+    for name, mission in MISSIONS.items():
+        for step in mission.steps:
+            ways = [way for way in ("Blocks", "Python") if f"choose *{way}*" in step.say]
+            if ways and isinstance(step.check, Opens):
+                assert step.check.way == ways[0].lower(), name
+
+
+def test_what_lies_in_a_tab_has_the_way_there_lit() -> None:
+    for name, mission in MISSIONS.items():
+        for step in mission.steps:
+            if "Sensors" in step.light:
+                assert step.light[:3] == ["Details", "Drive", "Sensors"], name
+
+
 def test_missions_call_what_is_built_as_the_page_does() -> None:
     known = {*CONTROLS, *FIELD_LABELS.values(), *(words.title for words in BLOCK_WORDS.values())}
     known |= {"Sensor", "Reward", "W"}
@@ -296,3 +311,5 @@ def open_all(do: Doing) -> None:
     """Open whatever tab the step asks for."""
     for tab in ("drive", "build", "code", "teach"):
         do.open(tab)
+    for way in ("python", "blocks"):
+        do.open("code", way)

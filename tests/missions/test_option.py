@@ -73,6 +73,7 @@ def test_a_tab_and_a_number_are_seen(room: PanelRoom, page: PanelPage) -> None:
     room.runner.reset(1).result(LIMIT_S)
     page.done("mission_open", mission="code-1")
     page.done("mission_see", tab="code")
+    page.done("mission_see", tab="code", way="python")
     page.part("mission", mission="code-1", is_done=True)
     page.done("mission_open", mission="sense-1", step=3)
     page.part("mission", mission="sense-1", step=3)

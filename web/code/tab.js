@@ -143,6 +143,10 @@ export class CodeTab {
       replace: (text) => this.#program.replace(text),
       run: (way) => this.#go(way),
     });
+    this.#blocks.onSwitch = (isOn) => {
+      panel.programWay = isOn ? "blocks" : "python";
+      panel.dispatchEvent(new Event("way"));
+    };
     this.#program = new ProgramSection(panel, {
       text: () => this.#blocks.join(this.#editor.text),
       show: (text) => this.#showProgram(text),

@@ -1577,6 +1577,8 @@ export interface SaveScene {
 export interface SeeMission {
   /** Name of the open tab of the panel; empty if the panel is folded. */
   tab: string;
+  /** `python` or `blocks`, as the program in the tab "Code" is written; empty before. */
+  way?: string;
   /** True if another page drives the robot: what it does is not this person's. */
   is_watching?: boolean;
 }

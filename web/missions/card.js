@@ -70,7 +70,7 @@ export class MissionCard {
     addEventListener("storage", ({ key }) => key === storedKey() && this.#follow());
     syncMissions();
     missions.addEventListener("assigned", () => this.#isConnected && this.#openAssigned());
-    for (const type of ["tab", "driver", "agent"]) panel.addEventListener(type, () => this.#tell());
+    for (const type of ["tab", "way", "driver", "agent"]) panel.addEventListener(type, () => this.#tell());
   }
 
   /** Tell the room which mission this page has; it forgets that when it is started again. */
@@ -88,7 +88,8 @@ export class MissionCard {
   /** Tell the room what the person sees and does in this page. */
   #tell() {
     if (!this.#isConnected || openMission() === null) return;
-    const news = { tab: this.#panel.layout.isFolded ? "" : (this.#panel.tab ?? ""), is_watching: this.#isWatching };
+    const { layout, tab, programWay } = this.#panel;
+    const news = { tab: layout.isFolded ? "" : (tab ?? ""), way: programWay, is_watching: this.#isWatching };
     const text = JSON.stringify([news, this.#panel.shown.agent]);
     if (text === this.#told) return;
     this.#told = text;

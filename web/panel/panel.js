@@ -78,6 +78,11 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   /** True while a program of this page has the agent. */
   hasProgram = false;
   /**
+   * How the program in the tab "Code" is written; empty before that tab was open.
+   * @type {"" | "python" | "blocks"}
+   */
+  programWay = "";
+  /**
    * The latest episode in which a program of this page decided; null if there is none.
    * @type {{agent: string, episode: number, isTest: boolean} | null}
    */

@@ -270,4 +270,6 @@ export interface PanelEvents extends PartEvents {
   thought: null;
   /** Another tab is open, or the panel was folded or opened. */
   tab: null;
+  /** The program in the tab "Code" is written in blocks now, or in Python. */
+  way: null;
 }
