@@ -27,6 +27,8 @@ class Check(Description):
     """The type of events that it follows."""
     begins_with_latest: ClassVar[bool] = False
     """True if it compares the first decision with the latest one before it."""
+    counts_whole_episodes: ClassVar[bool] = False
+    """True if it has to see the first decision of an episode, also of one that has begun before."""
 
     def follow(self) -> Follow:
         """Follow events until the check is satisfied."""
@@ -52,6 +54,8 @@ class Following:
     Args:
         check: the check.
         latest: the latest decision before it; None if there was none.
+        first: the first decision of the present episode, if the driver that counts has driven in it
+            alone; None otherwise.
 
     >>> from ai4u_edu.missions.checks import Opens
     >>> from ai4u_edu.missions.events import SeenPage
@@ -62,7 +66,9 @@ class Following:
     True
     """
 
-    def __init__(self, check: Check, latest: Decision | None = None) -> None:
+    def __init__(
+        self, check: Check, latest: Decision | None = None, first: Decision | None = None
+    ) -> None:
         self.check = check
         self.is_done = False
         self._events = check.follow()
@@ -70,6 +76,8 @@ class Following:
         """Words on how far it is; empty if there is nothing to say."""
         if latest is not None and check.begins_with_latest:
             self.see(latest)
+        if first is not None and check.counts_whole_episodes:
+            self.see(first)
 
     def see(self, event: Event) -> None:
         """Let the check see an event."""

@@ -133,6 +133,7 @@ class Turns(Check):
 class ReachesGoal(Check):
     """The scene's goal is reached in whole episodes, each driven from its start."""
 
+    counts_whole_episodes = True
     type: Literal["reaches_goal"] = "reaches_goal"
     times: Times = 1
     of: Times | None = None
@@ -345,14 +346,6 @@ class Opens(Check):
     tab: Tab
     way: Literal["", "python", "blocks"] = ""
     """How the program in the tab "Code" has to be written; empty for any."""
-
-    @model_validator(mode="after")
-    def _has_a_way_in_code_alone(self) -> Self:
-        if self.way and self.tab != "code":
-            raise ValueError(
-                _("expected tab: code with a way of writing a program, got {tab!r}", tab=self.tab)
-            )
-        return self
 
     def follow(self) -> Follow:
         """Wait for the tab."""

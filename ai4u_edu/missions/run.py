@@ -52,6 +52,8 @@ class MissionRun:
         self.version = 0
         """Grows with every change that a page shows."""
         self._latest: Decision | None = None
+        self._first: Decision | None = None
+        """First decision of the present episode, if one driver alone has driven in it so far."""
         self._page = SeenPage("")
         self._scene: SceneDescription | None = None
         self._networks: set[str] = set()
@@ -72,7 +74,10 @@ class MissionRun:
         """
         self.index = min(step, len(self.mission.steps) - 1)
         self.step = self.mission.steps[self.index]
-        self._following = Following(self.step.check, self._latest)
+        # who has driven this episode from its start may go on with it
+        first = self._first
+        is_asked = first is not None and self.step.by in ("anyone", first.driver)
+        self._following = Following(self.step.check, self._latest, first if is_asked else None)
         self._hints = [Following(hint.when, self._latest) for hint in self.step.hints]
         self.hint = self.driver = ""
         """Sentences about what went wrong, and about another driver; empty if there is none."""
@@ -118,6 +123,7 @@ class MissionRun:
             self._page = event
         elif isinstance(event, Decision):
             self._latest = event
+            self._note_first(event)
             self._decisions += 1
             self._networks.add(event.network)
         if not isinstance(event, Decision) or self._is_asked_driver(event):
@@ -152,6 +158,15 @@ class MissionRun:
                 self.hint = hint.say
                 self._count_hint()
                 self._hints[place] = Following(hint.when)  # it may happen again
+
+    def _note_first(self, decision: Decision) -> None:
+        first = self._first
+        if decision.step <= 1:
+            self._first = decision
+        elif first is not None and (
+            decision.outcome or (first.episode, first.driver) != (decision.episode, decision.driver)
+        ):
+            self._first = None
 
     def _is_old_episode(self) -> bool:
         return self._latest is not None and self._latest.episode == self._old_episode

@@ -246,6 +246,38 @@ def test_the_card_fits_and_covers_no_key(
         assert is_beside or box["y"] + box["height"] <= keys["y"]
 
 
+@pytest.mark.parametrize("is_folded", [True, False])
+@pytest.mark.parametrize(
+    ("width", "height"), [(1024, 768), (900, 700), (820, 1180), (390, 844), (667, 375)]
+)
+def test_a_banner_lies_beside_the_card(
+    chromium: Browser, room: Room, width: int, height: int, is_folded: bool
+) -> None:
+    with panel_page(chromium, room, width=width, height=height) as page:
+        page.page.evaluate(OPEN)
+        page.panel.parts["mission"] = {**PART, "light": ["Keys"]}
+        page.page.reload()
+        page.wait()
+        fold = page.button("Fold the panel" if is_folded else "Open the panel")
+        if fold.count():
+            fold.click()
+        room.runner.pause().result(LIMIT_S)
+        banner = page.page.locator(".ai4u-banner")
+        expect(banner).to_contain_text("Paused")
+        banner.locator("p").evaluate("p => p.append('. Time is up, press R to try again')")
+        boxes = [each.bounding_box() for each in (card(page), banner)]
+        assert boxes[0] is not None
+        assert boxes[1] is not None
+        of_card, of_banner = boxes[0], boxes[1]
+        is_left = of_banner["x"] + of_banner["width"] <= of_card["x"]
+        assert (
+            is_left
+            or of_card["y"] + of_card["height"] <= of_banner["y"]
+            or (of_banner["y"] + of_banner["height"] <= of_card["y"])
+        )
+        room.runner.resume().result(LIMIT_S)
+
+
 def test_an_open_panel_ends_below_the_card_on_a_phone_in_a_class(
     chromium: Browser, room: Room
 ) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.locale import Text
-from ai4u_edu.missions.events import Event, SeenPage
+from ai4u_edu.missions.events import Driver, Event, SeenPage
 from ai4u_edu.missions.mission import library_missions, read_mission
 from ai4u_edu.missions.option import mission_part
 from ai4u_edu.missions.run import HINT_DECISIONS, MissionRun
@@ -54,6 +54,42 @@ def test_what_is_open_already_counts_for_the_next_step(run: MissionRun) -> None:
     run.see(SeenPage("code"))
     run.begin(1)
     assert run.is_done
+
+
+TWO_STEPS = """\
+title: Test
+scene: maze
+steps:
+  - say: Drive.
+    by: keys
+    check: {type: drives, metres: 2}
+  - say: Reach it.
+    by: keys
+    check: {type: reaches_goal}
+"""
+
+
+@pytest.mark.parametrize(("others", "is_done"), [((), True), (("program",), False)])
+def test_an_episode_that_was_driven_from_its_start_counts_for_the_next_step(
+    others: tuple[Driver, ...], is_done: bool
+) -> None:
+    run = MissionRun(read_mission(TWO_STEPS, "test.yaml"))
+    run.see(replace(STILL, step=1))
+    for step, driver in enumerate(("keys", *others, "keys"), 2):
+        run.see(replace(STILL, step=step, driver=driver))
+    run.begin(1)
+    run.see(replace(STILL, step=8))
+    run.see(replace(STILL, step=9, outcome="goal"))
+    assert run.is_done == is_done
+
+
+def test_a_goal_before_a_step_does_not_count_for_it() -> None:
+    run = MissionRun(read_mission(TWO_STEPS, "test.yaml"))
+    for each in (replace(STILL, step=1), replace(STILL, step=2, outcome="goal")):
+        run.see(each)
+    run.begin(1)
+    run.see(replace(STILL, step=2, outcome="goal"))
+    assert not run.is_done
 
 
 def test_a_step_beyond_the_last_one_is_the_last_one(run: MissionRun) -> None:
