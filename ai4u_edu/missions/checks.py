@@ -345,7 +345,7 @@ class Opens(Check):
     type: Literal["opens"] = "opens"
     tab: Tab
     way: Literal["", "python", "blocks"] = ""
-    """How the program in the tab "Code" has to be written; empty for any."""
+    """Way in which the program in the tab "Code" has to be written; empty for any."""
 
     def follow(self) -> Follow:
         """Wait for the tab."""

@@ -78,7 +78,7 @@ export class Panel extends /** @type {EmitterClass<PanelEvents>} */ (EventTarget
   /** True while a program of this page has the agent. */
   hasProgram = false;
   /**
-   * How the program in the tab "Code" is written; empty before that tab was open.
+   * Way in which the program in the tab "Code" is written; empty before that tab was open.
    * @type {"" | "python" | "blocks"}
    */
   programWay = "";
