@@ -11,7 +11,7 @@ from pydantic import Field, field_validator
 from ai4u_edu.agent.bound_blocks import BoundBlocks
 from ai4u_edu.agent.events import ContactEvents, Event
 from ai4u_edu.agent.ledger import HANDLERS, Ledger
-from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest
+from ai4u_edu.base.errors import ActionError, ReadingError, SetupError, suggest, text_of
 from ai4u_edu.base.parameters import Count, Name, Number, WholeNumber
 from ai4u_edu.blocks import (
     Action,
@@ -35,6 +35,7 @@ from ai4u_edu.blocks.brains.brain import Accepted
 from ai4u_edu.blocks.brains.local import as_brain, can_drive
 from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.world import Body, World, WorldView
 
 Numbers = tuple[float, ...]
@@ -363,8 +364,14 @@ class BasicAgent(Parameterized):
                     if numbers != sensor.numbers.tolist():  # a script may send them each time
                         sensor.set_values(numbers)
                 except (ReadingError, ValueError) as error:
-                    problems.append(f"field {sensor.perception_key!r} had no effect: {error}")
-        return "; ".join(problems)
+                    problems.append(
+                        _(
+                            "field {name!r} had no effect: {problem}",
+                            name=sensor.perception_key,
+                            problem=text_of(error),
+                        )
+                    )
+        return join(problems, "; ") if problems else ""
 
     def note_input(self, given: AgentInput) -> None:
         """Tell recorders that a script gave numbers to the agent."""

@@ -594,5 +594,5 @@ def _check_unique(agents: Sequence[BasicAgent]) -> None:
 
 def _shown(value: object) -> str:
     if isinstance(value, type):
-        return f"the class {value.__name__}"
+        return _("the class {name}", name=value.__name__)
     return f"{type(value).__name__} {shown(value)}"

@@ -16,6 +16,7 @@ from ai4u_edu.base.process_signals import ask_to_end
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.classroom.room_watch import limit_own_files
 from ai4u_edu.classroom.scene_file import SceneFile, last_scene, last_seed
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.member import ClassLinkSettings
 from ai4u_edu.missions import mission_map
 from ai4u_edu.page.server import Rules, serve
@@ -91,7 +92,7 @@ def run_room(order: RoomOrder, parent: Connection) -> None:
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the class's terminal is for the class
     limit_own_files()
-    make_folder(order.folder, "the room's folder")
+    make_folder(order.folder, _("what a room keeps"))
     settings = RoomSettings(
         scene=last_scene(order.folder, order.scene),
         seed=last_seed(order.folder),

@@ -246,7 +246,7 @@ class ClassStore:
     """
 
     def __init__(self, folder: Path, max_gb: float = MAX_GB) -> None:
-        make_folder(folder, "the class's folder", is_private=True)
+        make_folder(folder, _("what a class keeps"), is_private=True)
         self.folder, self.quota = folder, FolderQuota(folder, max_gb)
         self._lock = threading.Lock()
         self._folder_lock = _locked(folder)

@@ -62,7 +62,7 @@ def bundle(
                 "FOLDER)"
             )
         )
-    make_folder(folder, "the bundle")
+    make_folder(folder, _("the bundle"))
     collect_wheels(folder / "wheels", extras, wheel)
     write_course(folder / "course")
     write_scenes(folder / "scenes")

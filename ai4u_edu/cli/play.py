@@ -118,7 +118,7 @@ def _own_scenes() -> Path | None:
 
     folder = unsaved_folder().with_name("scenes")
     try:
-        make_folder(folder, "saved scenes")
+        make_folder(folder, _("saved scenes"))
     except SetupError as error:
         _warn(f"{error}; pages can only download scenes")
         return None

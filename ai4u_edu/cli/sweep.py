@@ -281,7 +281,7 @@ def _run(plan: "SweepPlan", folder: Path, engine_name: str, address: str) -> "Sw
 
     results: list[TrialResult] = []
     kept = min(count_done(folder), total_of(plan))
-    bar = ProgressBar(total_of(plan), "trials", done=kept)
+    bar = ProgressBar(total_of(plan), _("trials"), done=kept)
 
     def tell(result: "TrialResult") -> None:
         results.append(result)
@@ -308,7 +308,7 @@ def _run(plan: "SweepPlan", folder: Path, engine_name: str, address: str) -> "Sw
         done = run_sweep(plan, folder, running, tell=tell)
     if not done.is_interrupted:
         seeds = seeds_from(0, EVALUATION_EPISODES)
-        bar = ProgressBar(len(seeds), "episodes, best", keep=False)
+        bar = ProgressBar(len(seeds), _("episodes, best"), keep=False)
         with closing(bar):
             done = evaluated(done, seeds, lambda: bar.add(1))
     write_report(done)

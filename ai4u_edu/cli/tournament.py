@@ -16,7 +16,7 @@ from ai4u_edu.cli import training_options as o
 from ai4u_edu.cli.options import OwnBlocks, check_blocks, load_own_blocks, say, seed_option
 from ai4u_edu.cli.sweep import INTERRUPTED
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import translate
+from ai4u_edu.locale import translate, unpacked
 
 if TYPE_CHECKING:
     from ai4u_edu.games.jobs import JobOutcome
@@ -182,7 +182,7 @@ def _run(plan: "TournamentPlan", folder: Path, engine_name: str, address: str) -
 
     total = len(plan.entries) + plan.games_for(len(plan.entries))
     kept, ended = min(count_done(folder), total), count(1)
-    bar = ProgressBar(total, "games", done=kept)
+    bar = ProgressBar(total, _("games"), done=kept)
 
     def tell(outcome: "JobOutcome") -> None:
         bar.show(max(kept, next(ended)))
@@ -190,7 +190,7 @@ def _run(plan: "TournamentPlan", folder: Path, engine_name: str, address: str) -
         if result["reason"]:
             entries = outcome.job.arguments["entries"]
             names = " - ".join(dict.fromkeys(str(each["name"]) for each in entries))
-            bar.note(f"{names}: {result['reason']}")
+            bar.note(f"{names}: {translate(unpacked(result['reason']))}")
 
     with closing(bar), engine(engine_name, address=address) as running:
         done = run_tournament(plan, folder, running, tell=tell)
@@ -215,8 +215,8 @@ def _report(done: "Tournament", engine: str) -> None:
         justify: Literal["left", "right"] = "left" if name in ("entry", "rating") else "right"
         shown.add_column(translate(heading), justify=justify)
     for place, each in enumerate(done.standings, 1):
-        row = (place, each.name, each.rating, each.won, each.drawn, each.lost, each.forfeits)
-        shown.add_row(*map(str, row))
+        counts = (each.won, each.drawn, each.lost, each.forfeits)
+        shown.add_row(str(place), each.name, translate(each.rating), *map(str, counts))
     Console().print(shown, markup=False)
     for name, reason in done.refused.items():
         say(_("refused: {name}: {reason}", name=name, reason=reason))
@@ -247,7 +247,7 @@ def _verify(folder: Path, engine_name: str, address: str, own_blocks: list[Path]
 
     plan = TournamentPlan.load(folder)
     check_blocks(plan.scene, own_blocks)
-    bar = ProgressBar(len(plan.entries) + plan.games_for(len(plan.entries)), "games")
+    bar = ProgressBar(len(plan.entries) + plan.games_for(len(plan.entries)), _("games"))
     with closing(bar), engine(engine_name, address=address) as running:
         count, problems = verify(folder, running, lambda: bar.add(1))
     for each in problems:

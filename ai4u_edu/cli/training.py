@@ -277,7 +277,7 @@ def _evaluated_on(
     from ai4u_edu.scenes.scene_data import scene_data
 
     data = scene_data(scene, own_blocks or ())
-    bar = ProgressBar(len(seeds) * len(drivers), "episodes", keep=False)
+    bar = ProgressBar(len(seeds) * len(drivers), _("episodes"), keep=False)
     with engine(name, address=address) as running, closing(bar):
         return evaluate_on(running, [(who, data) for who in drivers], seeds, tell=bar.add)
 
@@ -321,7 +321,7 @@ def vary(
     numbers, seeds = v.parse_values(values), seeds_from(seed, episodes)
     driven, who = v.with_driver(loaded, who, agent)
     varied = v.parameter_named(driven, parameter)
-    bar = ProgressBar(len(numbers) * episodes, "episodes", keep=False)
+    bar = ProgressBar(len(numbers) * episodes, _("episodes"), keep=False)
     with closing(bar), engine("inline" if workers == 1 else "processes", width=workers) as running:
         rows = v.try_values(
             driven,

@@ -6,13 +6,22 @@ from types import FunctionType, MethodType, ModuleType
 from typing import Any
 
 from ai4u_edu.blocks import Controller
+from ai4u_edu.locale import Text
+from ai4u_edu.locale import gettext as _
 
 REASONS = {
-    "on_setup": "prepares itself with the world, so it may read more than the percept",
-    "on_reset": "begins again at each reset, so it keeps something from one decision to the next",
-    "new_state_event": "follows the percepts as they come, so it keeps something of earlier ones",
+    "on_setup": _(
+        "{controller} prepares itself with the world, so it may read more than the percept"
+    ),
+    "on_reset": _(
+        "{controller} begins again at each reset, so it keeps something from one decision to the "
+        "next"
+    ),
+    "new_state_event": _(
+        "{controller} follows the percepts as they come, so it keeps something of earlier ones"
+    ),
 }
-"""Reasons by the method that a controller overrides."""
+"""Patterns of reasons by the method that a controller overrides."""
 
 
 def dependence_on_more(controller: Controller) -> str:
@@ -26,18 +35,18 @@ def dependence_on_more(controller: Controller) -> str:
     reason = dependence_of(kind)
     if not reason:
         return ""
-    return f"{kind.__name__} {reason}; an explanation by leaving out readings does not apply to it"
+    return _("{reason}; an explanation by leaving out readings does not apply to it", reason=reason)
 
 
 def dependence_of(kind: type[Controller]) -> str:
     """Return why the actions of a class of controllers may depend on more than the percept.
 
     Returns:
-        The rest of a sentence that begins with the class; empty if they don't.
+        A clause that begins with the class; empty if they don't.
     """
     for method, reason in REASONS.items():
         if getattr(kind, method) is not getattr(Controller, method):
-            return reason
+            return Text(reason, {"controller": kind.__name__})
     return ""
 
 

@@ -106,12 +106,15 @@ def _dials(info: SensorInfo, agent: AgentState) -> list[Dial]:
     found = []
     for group in groups_of([info], agent.rays, agent.spots, agent.percept):
         numbers = np.flatnonzero(group.mask[: len(info.low)])
-        parts = ("{}",) if len(numbers) == 1 else ("what {} sees", "how far {} sees")
+        name = group.name
+        parts: list[str] = [name]
+        if len(numbers) > 1:
+            parts = [_("what {ray} sees", ray=name), _("how far {ray} sees", ray=name)]
         found += [
             Dial(
                 info.key,
                 int(index),
-                part.format(group.name),
+                part,
                 float(latest[index]),
                 float(info.low[index]),
                 float(info.high[index]),

@@ -246,7 +246,7 @@ def clone(
         for episode in shown.episodes
     ]
     is_by_person = persons_only or all(episode.by_person.all() for episode in shown.episodes)
-    bar = ProgressBar(updates, "updates", quiet=quiet)
+    bar = ProgressBar(updates, _("updates"), quiet=quiet)
 
     def show(update: int, error: float) -> None:
         bar.show(update, f"error {error:.4f}")
@@ -354,7 +354,7 @@ class _Writer:
         self._checks_written = len(training.checks)
         self._began = self._written_at = time.perf_counter()
         self._first = training.ppo.decisions
-        self._bar = ProgressBar(config.steps, "steps", done=self._first, quiet=quiet)
+        self._bar = ProgressBar(config.steps, _("steps"), done=self._first, quiet=quiet)
 
     @property
     def checks(self) -> list[Check]:
@@ -410,11 +410,7 @@ class _Writer:
         self._run.note(checks)
         self._write_progress()
         check = checks[-1]
-        success = "" if check.success is None else f"success {check.success:.0%}, "
-        self._bar.note(
-            f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
-            f"reward {check.reward:.2f} in {check.length:.0f} decisions"
-        )
+        self._bar.note(check.line)
 
     def _write_progress(self, *, is_over: bool = False) -> None:
         self._written_at = time.perf_counter()

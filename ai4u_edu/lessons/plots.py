@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from ai4u_edu.base.colors import PALETTE
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.lessons.notebook_output import image, put
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
 STYLES = ("-", "--", "-.", ":")
@@ -96,7 +98,14 @@ def bars(heights: Mapping[str, float], *, ylabel: str = "", title: str = "") -> 
 
 def _words(lines: Mapping[str, Sequence[float]], title: str) -> str:
     ends = [
-        f"{name} from {heights[0]:.3g} to {heights[-1]:.3g}"
+        translate(
+            _(
+                "{name} from {first:.3g} to {last:.3g}",
+                name=name,
+                first=float(heights[0]),
+                last=float(heights[-1]),
+            )
+        )
         for name, heights in lines.items()
         if len(heights) and math.isfinite(heights[-1])
     ]

@@ -81,7 +81,16 @@ class Catalogue:
         return _translations(self.language, self.domain).gettext(msgid) if msgid else ""
 
     def _value(self, value: Value) -> Value:
+        if isinstance(value, int) and not isinstance(value, bool):
+            return _WholeNumber(value)
         return self.translate(value) if isinstance(value, Text) else value
+
+
+class _WholeNumber(int):
+    """A number whose thousands stand apart with a point, as our translations write them."""
+
+    def __format__(self, spec: str) -> str:
+        return int.__format__(self, spec).replace(",", ".")
 
 
 class _PseudoTranslations(gnu.NullTranslations):

@@ -20,6 +20,7 @@ from pydantic import (
 from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shown, suggest, text_of
 from ai4u_edu.base.parameters import ParameterProblem, explain
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.missions.checks import AnyCheck, Chooses, Holds, Reads, Solves, Text
 from ai4u_edu.missions.events import Driver
 from ai4u_edu.page.editing.scene_pictures import template_names
@@ -35,7 +36,7 @@ REREAD_S = 1.0
 """Time (s) after which a folder is looked at again."""
 EMPTY_SCENES = template_names()
 """Scenes to build in, which have no goal yet: the empty plate, and worlds of lessons."""
-EXPECTED = "lines such as title: ..., scene: ..., steps: ..."
+EXPECTED = _("lines such as title: ..., scene: ..., steps: ...")
 Island = Literal["Drive", "Sense", "Think", "Code", "Build", "Teach", "Compete", "My class"]
 """Islands of the map, in their order; the last one is for missions of a teacher."""
 ISLANDS: tuple[Island, ...] = get_args(Island)
@@ -291,11 +292,17 @@ def _with_folder(folder: Path, files: Sequence[Path]) -> Missions:
     found: dict[str, Mission] = {}
     problems: list[str] = []
     if not folder.is_dir():
-        problems.append(f"{folder}: expected a folder with missions, found none")
+        problems.append(
+            _("{folder}: expected a folder with missions, found none", folder=str(folder))
+        )
     if len(files) > MAX_FILES:
         problems.append(
-            f"{folder}: expected at most {MAX_FILES} files, got {len(files)}; the first "
-            f"{MAX_FILES} are read"
+            _(
+                "{folder}: expected at most {most} files, got {count}; the first {most} are read",
+                folder=str(folder),
+                most=MAX_FILES,
+                count=len(files),
+            )
         )
     for path in files[:MAX_FILES]:
         try:
@@ -305,7 +312,7 @@ def _with_folder(folder: Path, files: Sequence[Path]) -> Missions:
                 )
             found[path.stem] = read_mission(_text_of(path), path.name)
         except AI4UError as error:
-            problems.append(str(error))
+            problems.append(text_of(error))
     names = {*library, *found}
     problems += [
         _(
@@ -374,6 +381,13 @@ def _checks(mission: Mission) -> Sequence[tuple[tuple[str | int, ...], AnyCheck]
 
 
 def _error(file: YamlFile, problems: Sequence[ParameterProblem]) -> SceneError:
-    return SceneError(
-        "\n".join(f"{file.name}, line {file.line(each.path)}: {each}" for each in problems[:20])
-    )
+    lines = [
+        _(
+            "{name}, line {line}: {problem}",
+            name=file.name,
+            line=file.line(each.path),
+            problem=each.message,
+        )
+        for each in problems[:20]
+    ]
+    return SceneError(join(lines, "\n"))

@@ -23,7 +23,7 @@ MAX_LINK_CHARS = 100_000
 with 500 bodies takes a tenth of it."""
 MAX_TEXT_BYTES = 4 * MAX_SCENE_CHARS
 """Size of a scene's text in a link when it is decompressed; no character takes more bytes."""
-LINK = "the link"
+LINK = _("the link")
 """Name of a link in error messages, in place of a file's."""
 _LINK = re.compile(r"(https?://[^#]*)?#?scene=")
 _DATA = re.compile(r"[A-Za-z0-9_-]+")

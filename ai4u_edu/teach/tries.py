@@ -567,6 +567,8 @@ def _shown(number: NumberParameter, agent: str) -> VariableNumber:
     owner: str = number.owner.removeprefix(f"{agent}.").replace("_", " ")
     if number.owner == agent:
         owner = _("the robot")
+    elif number.owner.endswith(".controller"):
+        owner = _("the brain")
     if number.path[0] != "agents":
         owner = _("the world") if kind == "world" else thing.replace("_", " ")
     label = number.name.rpartition(".")[2].replace("_", " ")

@@ -13,6 +13,7 @@ from gymnasium import spaces
 
 from ai4u_edu.base.errors import suggest
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.wire.ai4u import Kind, ReplyCommand, packer
 from ai4u_edu.wire.ai4u_dialogue import STANDARD
 from ai4u_edu.wire.validation import WireError, shown
@@ -203,14 +204,23 @@ class AgentCodec:
             return ""
         listed = ", ".join(map(shown, dropped[:MAX_LISTED_FIELDS]))
         listed += ", ..." if len(dropped) > MAX_LISTED_FIELDS else ""
-        who = f"{'field' if len(dropped) == 1 else 'fields'} {listed} of {shown(command)}"
-        things = "actuators or sensors of numbers" if readable else "actuators"
-        expected = (
-            f"expected names of other {things} ({suggest(dropped[0], sorted(usable))}), once each"
-            if usable
-            else "expected no fields, since nothing here reads them"
+        hint = suggest(dropped[0], sorted(usable))
+        expected = _("expected no fields, since nothing here reads them")
+        if usable and readable:
+            expected = _(
+                "expected names of other actuators or sensors of numbers ({hint}), once each",
+                hint=hint,
+            )
+        elif usable:
+            expected = _("expected names of other actuators ({hint}), once each", hint=hint)
+        return ngettext(
+            "field {names} of {command} had no effect: {expected}",
+            "fields {names} of {command} had no effect: {expected}",
+            len(dropped),
+            names=listed,
+            command=shown(command),
+            expected=expected,
         )
-        return f"{who} had no effect: {expected}"
 
 
 def _wire_kind(reading: ReadingLike) -> Kind:

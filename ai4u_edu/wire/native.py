@@ -27,6 +27,8 @@ from msgspec import Meta
 
 from ai4u_edu.base.errors import shorten, shown, suggest
 from ai4u_edu.base.seeding import MAX_SEED
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import ngettext
 from ai4u_edu.wire.message_codec import MessageCodec, Record, TaggedMessage
 from ai4u_edu.wire.validation import LIST, MAX_FLOAT, MAX_TEXT_CHARS, Finite, Int, Text
 
@@ -235,10 +237,14 @@ def without_reader(names: Iterable[str], readable: Collection[str]) -> str:
     unread = [name for name in names if name not in readable]
     if not unread:
         return ""
-    listed = f"{'field' if len(unread) == 1 else 'fields'} {', '.join(map(shown, unread[:5]))}"
-    if not readable:
-        return f"no sensor reads the {listed}; expected an AgentArraySensor of that name"
-    return f"no sensor reads the {listed}; {suggest(unread[0], readable)}"
+    hint = _("expected an AgentArraySensor of that name")
+    return ngettext(
+        "no sensor reads the field {names}; {hint}",
+        "no sensor reads the fields {names}; {hint}",
+        len(unread),
+        names=", ".join(map(shown, unread[:5])),
+        hint=suggest(unread[0], readable) if readable else hint,
+    )
 
 
 _codec: MessageCodec[Message] = MessageCodec(Message)

@@ -1,6 +1,6 @@
 /** Numbers as text for people. */
 
-import { pageCatalogue, t } from "./text.js";
+import { t } from "./text.js";
 
 /**
  * Return a number with at most three digits that matter; "–" if there is none.
@@ -14,14 +14,6 @@ export function number(value) {
   const digits = size >= 100 ? 0 : size >= 10 ? 1 : 2;
   const text = size.toFixed(digits);
   return (amount < 0 && Number(text) !== 0 ? "−" : "") + text;
-}
-
-/**
- * Return a whole number with its thousands apart, as the page's language writes them.
- * @param {number} value
- */
-export function whole(value) {
-  return value.toLocaleString(pageCatalogue().language.replace("_", "-"));
 }
 
 /**

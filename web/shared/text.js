@@ -48,7 +48,15 @@ export function tn(one, many, number, values = {}) {
     const category = new Intl.PluralRules(catalogue.language.replace("_", "-")).select(number);
     text = found[category] ?? found.other ?? english;
   }
-  return filled(text, { n: number, ...values });
+  return filled(text, { n: whole(number), ...values });
+}
+
+/**
+ * Return a whole number with its thousands apart, as the page's language writes them.
+ * @param {number} value
+ */
+export function whole(value) {
+  return value.toLocaleString(catalogue.language.replace("_", "-"));
 }
 
 /**

@@ -7,8 +7,8 @@
 import { ask } from "../shared/dialog.js";
 import { button, element, keyed, setText, tableHead } from "../shared/dom.js";
 import { field, showForm } from "../shared/form_dialog.js";
-import { percent, sizeProblem, whole } from "../shared/numbers.js";
-import { t } from "../shared/text.js";
+import { percent, sizeProblem } from "../shared/numbers.js";
+import { t, whole } from "../shared/text.js";
 import { Card } from "../panel/widgets/card.js";
 import { choice } from "../panel/widgets/parts.js";
 

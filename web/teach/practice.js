@@ -5,8 +5,8 @@
  * @import { Panel } from "../panel/panel.js"
  */
 import { button, element, keyed, setText } from "../shared/dom.js";
-import { percent, whole } from "../shared/numbers.js";
-import { t } from "../shared/text.js";
+import { percent } from "../shared/numbers.js";
+import { t, whole } from "../shared/text.js";
 import { Curve } from "../panel/widgets/curve.js";
 import { choice } from "../panel/widgets/parts.js";
 

@@ -109,7 +109,7 @@ def _results(view: Event, people: Mapping[str, Event], is_projected: bool) -> Ev
             {
                 "entries": [{**each, **who(each["name"])} for each in contest["entries"]],
                 "seed": contest["seed"],
-                "problem": "" if is_projected else contest["problem"],
+                "problem": "" if is_projected else unpacked(contest["problem"]),
                 "has_failed": bool(contest["problem"]),
                 "games": [game(each) for each in contest["games"]],
             }
@@ -118,5 +118,7 @@ def _results(view: Event, people: Mapping[str, Event], is_projected: bool) -> Ev
         "best": [game(each) for each in view["best"]],
         "refused": []
         if is_projected
-        else [{**who(name), "reason": reason} for name, reason in view["refused"].items()],
+        else [
+            {**who(name), "reason": unpacked(reason)} for name, reason in view["refused"].items()
+        ],
     }

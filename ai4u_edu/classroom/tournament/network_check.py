@@ -22,7 +22,7 @@ from ai4u_edu.games.tournament.entry import Driver
 from ai4u_edu.games.tournament.limits import LOAD_CPU_S, OverTimeError, is_over_time, over_load_time
 from ai4u_edu.games.tournament.plan import CHECK_SEED
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import library_text
+from ai4u_edu.locale import library_text, unpacked
 
 MAX_CHECK_CPU_S = 30.0
 """Processor time in which a network has to be loaded and to play a game against itself: the
@@ -124,8 +124,10 @@ class NetworkCheck:
         if is_over_time(answer.error):
             return over_load_time()
         answer = await process.run(await asyncio.to_thread(self._job, row, driver))
-        reason = answer.error or str(answer.result["reason"])
-        reason = re.sub(re.escape(str(self._folder.absolute())) + "/?[0-9]?", "", reason)
+        reason = answer.error or unpacked(answer.result["reason"])
+        without_folder = re.sub(re.escape(str(self._folder.absolute())) + "/?[0-9]?", "", reason)
+        if without_folder != reason:
+            reason = without_folder
         reason = _other_scene(row.scene, reason) or reason  # the path is the teacher's
         return (
             _("Its game could not be played: {reason}", reason=reason) if answer.error else reason

@@ -25,6 +25,7 @@ from ai4u_edu.classroom.tournament.tournaments import TournamentRow, Tournaments
 from ai4u_edu.games.tournament.entry import Driver
 from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import unpacked
 
 VIEW = "view.json"
 """File with a tournament as it was at its end."""
@@ -298,7 +299,7 @@ class _PlayedTournament:
             for line in lines:
                 told = json.loads(line)
                 self.view = told.get("view", self.view)
-                self.problem = told.get("problem", "")
+                self.problem = unpacked(told.get("problem", ""))
                 self.is_over = told.get("is_over", False)
                 self._on_change()
         code = self._process.wait()

@@ -6,7 +6,7 @@ import traceback
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.games.jobs.job import Job
 
 MAX_ERROR_CHARS = 2000
@@ -30,7 +30,7 @@ def call(job: Job) -> JobAnswer:
         # as a journal would give it back: lists for tuples, texts for keys
         result = json.loads(json.dumps(job.run()))
     except AI4UError as error:  # wrong arguments stay wrong
-        return JobAnswer(None, str(error), time.perf_counter() - begin, can_retry=False)
+        return JobAnswer(None, text_of(error), time.perf_counter() - begin, can_retry=False)
     except Exception as error:  # it is reported, and the other jobs go on
         last = traceback.extract_tb(error.__traceback__)[-1]
         text = f"{type(error).__name__}: {error} ({Path(last.filename).name}:{last.lineno})"

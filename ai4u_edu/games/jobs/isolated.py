@@ -132,7 +132,7 @@ class IsolatedJobs:
         ours.close()
         process.kill()
         raise OSError(
-            _("the process for jobs did not start: {value}", value=problem or "it took too long")
+            _("the process for jobs did not start: {value}", value=problem or _("it took too long"))
         )
 
 

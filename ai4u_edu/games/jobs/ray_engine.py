@@ -62,7 +62,7 @@ class RayEngine:
         need("ray", "ray")
         if address and address != "auto":
             _check_address(address)
-        self._where = address or "this machine"
+        self._where = address or _("this machine")
         self._running: dict[str, Job] = {}
         context = multiprocessing.get_context("spawn")
         self._pipe, there = context.Pipe()

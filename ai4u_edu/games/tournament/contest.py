@@ -7,6 +7,7 @@ from typing import Any
 from ai4u_edu.games.jobs import Job
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.game import game
+from ai4u_edu.locale import unpacked
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ class ContestResult:
         found = []
         for seating, told in zip(self.contest.seatings, self.games, strict=False):
             if told["forfeit"] >= 0 and seating[told["forfeit"]].name == name:
-                found.append(str(told["reason"]))
+                found.append(unpacked(told["reason"]))
         return found
 
     def points(self, name: str) -> float:

@@ -47,6 +47,7 @@ from ai4u_edu.games.tournament.limits import (
 )
 from ai4u_edu.games.tournament.sides import Sides
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import unpacked
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.scenes import Scene
@@ -116,7 +117,7 @@ class RecordedAnswers(Controller):
         """
         self._turn += 1
         if self._turn > len(self._actions) and self._reason:
-            raise BlockError(self._reason)
+            raise BlockError(unpacked(self._reason))
         return self._actions[min(self._turn, len(self._actions)) - 1]
 
 
@@ -248,7 +249,8 @@ def _answers(driver: Driver, agent: BasicAgent) -> RecordedAnswers:
         actions = [each.action for each in episode.agent(agent.id)]
     if not actions:
         raise BlockError(
-            driver["reason"] or _("agent {id!r} has no decision in its recording", id=agent.id)
+            unpacked(driver["reason"])
+            or _("agent {id!r} has no decision in its recording", id=agent.id)
         )
     controller = RecordedAnswers()
     controller.attach(actions, driver["reason"])

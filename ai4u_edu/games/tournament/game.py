@@ -12,13 +12,14 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.agent.block_errors import message_of
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import Answer, Brain, Command, Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.games.tournament.drivers import driver_for, make
 from ai4u_edu.games.tournament.limits import CpuMeter, OverTimeError, memory_limit
 from ai4u_edu.games.tournament.sides import Sides, sides_of
+from ai4u_edu.locale import Text, packed, unpacked
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.episode import encode
@@ -59,9 +60,10 @@ def result_fault(result: Any, sides: int) -> str:
         return _("a recording that is no base64")
     if not len(told.points) == len(told.goal) == sides:
         return _("points of {n} sides, and the scene has {sides}", n=len(told.points), sides=sides)
-    if not -1 <= told.forfeit < sides or (told.forfeit < 0) != (not told.reason):
+    reason = unpacked(told.reason)
+    if not -1 <= told.forfeit < sides or (told.forfeit < 0) != (not reason):
         return _(
-            "forfeit {forfeit} for the reason {reason!r}", forfeit=told.forfeit, reason=told.reason
+            "forfeit {forfeit} for the reason {reason!r}", forfeit=told.forfeit, reason=str(reason)
         )
     return ""
 
@@ -81,7 +83,7 @@ def game(
         ``points`` of each side (sum of its agents' rewards), ``goal`` (True for a side that
         reached the scene's goal), ``ticks``, the ``episode`` (a file's bytes in base64; empty if
         the game did not begin), and for a side that failed its index as ``forfeit`` (else -1) and
-        the ``reason``.
+        the ``reason``, :func:`~ai4u_edu.locale.packed`.
     """
     loaded = scene_from(scene)
     sides = sides_of(loaded)
@@ -169,7 +171,7 @@ def _result(
         "ticks": 0 if episode is None else episode.ticks,
         "episode": "" if episode is None else base64.b64encode(encode(episode)).decode(),
         "forfeit": index,
-        "reason": reason,
+        "reason": packed(reason),
     }
 
 
@@ -239,7 +241,12 @@ class MatchBrain(Brain):
 def _reason_of(error: Exception) -> str:
     """Return why an entry failed, as one sentence."""
     is_ours = isinstance(error, AI4UError | OverTimeError)
-    text = str(error) if is_ours else f"{type(error).__name__}: {error}"
-    text = " ".join(text.split())
-    text = re.sub(r"NeuralNetController '[^']*': ", "", text)  # a path in a folder that is gone
+    whole = text_of(error) if is_ours else f"{type(error).__name__}: {error}"
+    name = r"NeuralNetController '[^']*'"  # a path in a folder that is gone
+    if isinstance(whole, Text) and re.fullmatch(name, str(whole.values.get("text0", ""))):
+        inner = whole.values["text1"]
+        whole = inner if isinstance(inner, str) else str(inner)
+    text = re.sub(f"{name}: ", "", " ".join(whole.split()))
+    if text == whole and len(text) <= MAX_REASON_CHARS:
+        return whole  # as it is, it can be translated
     return text if len(text) <= MAX_REASON_CHARS else text[: MAX_REASON_CHARS - 1] + "…"

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import unpacked
 
 if sys.platform != "win32":
     import resource
@@ -21,7 +22,7 @@ GAME_CPU_S = 60.0
 MEMORY_BYTES = 2**31
 """Memory that a game may take beyond what its process has (on Linux)."""
 CHECK_INTERVAL_S = 0.1
-CPU_TIME = "s of processor time"
+CPU_TIME = _("s of processor time")
 
 
 class CpuMeter:
@@ -96,7 +97,7 @@ def over_time(used_s: float) -> str:
 
 def is_over_time(reason: str) -> bool:
     """Return True if an entry failed by processor time, which is not the same twice."""
-    return CPU_TIME in reason
+    return CPU_TIME in unpacked(reason)
 
 
 def over_load_time() -> str:

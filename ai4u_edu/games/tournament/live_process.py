@@ -19,7 +19,7 @@ from typing import Any
 
 import psutil
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.base.process_priority import lower_priority
 from ai4u_edu.games.jobs.processes import ProcessEngine
@@ -28,6 +28,7 @@ from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import run_tournament, write_results
 from ai4u_edu.games.tournament.standings import Standing
 from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.locale import join, packed
 
 MIN_SHOW_INTERVAL_S = 0.5
 """Shortest time between two lines: to rate hundreds of contests takes some time."""
@@ -66,7 +67,7 @@ def main() -> None:
             )
         write_results(done)
     except (AI4UError, OSError) as error:
-        tell(problem=str(error))
+        tell(problem=packed(text_of(error)))
     else:
         tell(view=live_view(done), is_over=True)
 
@@ -91,6 +92,7 @@ def live_view(done: Tournament) -> dict[str, Any]:
         ``games`` played and their ``total``; ``is_race``; ``standings``, the best first, with the
         results ``against`` each other entry (won, drawn, lost); the ``latest`` contests, the last
         one first; the ``best`` games to watch; ``refused`` entries with reasons.
+        Sentences are :func:`~ai4u_edu.locale.packed`.
     """
     order = done.standings
     latest = [*reversed(done.ended)][:LATEST_CONTESTS]
@@ -101,7 +103,7 @@ def live_view(done: Tournament) -> dict[str, Any]:
         "standings": [_standing(each) for each in order],
         "latest": [_contest(done, place) for place in latest],
         "best": [_game(done, best.place, best.game) for best in done.best_games(order, BEST_GAMES)],
-        "refused": done.refused,
+        "refused": {name: packed(reason) for name, reason in done.refused.items()},
     }
 
 
@@ -128,7 +130,7 @@ def _contest(done: Tournament, place: int) -> dict[str, Any]:
         "seed": result.contest.seed,
         "entries": [{"name": name, "rank": rank, "points": points} for rank, name, points in order]
         or [{"name": name, "rank": 0, "points": 0.0} for name in result.contest.names],
-        "problem": result.error or _failures(result),
+        "problem": packed(result.error or _failures(result)),
         "games": [_game(done, place, game) for game, _ in enumerate(done.files.get(place, ()))],
     }
 
@@ -142,7 +144,8 @@ def _ranked(result: ContestResult) -> list[tuple[int, str, float]]:
 def _failures(result: ContestResult) -> str:
     """Return who failed and why; empty if nobody did."""
     names = result.contest.names
-    return "; ".join(f"{name}: {why[0]}" for name in names if (why := result.reasons(name)))
+    failures = [join([name, why[0]], ": ") for name in names if (why := result.reasons(name))]
+    return join(failures, "; ")
 
 
 def _game(done: Tournament, place: int, game: int) -> dict[str, Any]:

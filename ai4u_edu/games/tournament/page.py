@@ -9,6 +9,7 @@ from pathlib import Path
 from ai4u_edu.base.html_template import render_html
 from ai4u_edu.games.tournament.standings import MAX_SURE_SIGMA, Standing
 from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
 from ai4u_edu.recording.exports.html_page import html_of
@@ -28,6 +29,8 @@ setInterval(() => {
 </script>
 """
 """Addition to the page of :mod:`ai4u_edu.recording.exports.html_page` for the projector."""
+SYSTEMS = {"race": _("race"), "round-robin": _("round robin"), "swiss": _("Swiss system")}
+"""Systems of tournaments in words."""
 EMBEDDED_GAMES = 3
 MAX_LISTED_GAMES = 500
 MAX_LISTED_SEEDS = 20
@@ -45,6 +48,7 @@ def page_of(done: Tournament) -> str:
     return render_html(
         "games/tournament/page.html",
         plan=plan,
+        system=SYSTEMS["race" if plan.sides.is_race else plan.system],
         plan_hash=hashlib.sha256(plan.text.encode()).hexdigest(),
         seeds=plan.seeds[:MAX_LISTED_SEEDS],
         entries=len(done.admitted),
@@ -62,7 +66,7 @@ def page_of(done: Tournament) -> str:
 
 def _best_games(done: Tournament, order: list[Standing]) -> Iterator[tuple[str, int, str]]:
     """Yield points, seed and player of the best games."""
-    for _, result, game in done.best_games(order, EMBEDDED_GAMES):
+    for _place, result, game in done.best_games(order, EMBEDDED_GAMES):
         contest, told = result.contest, result.games[game]
         episode = decode(Episode, base64.b64decode(told["episode"]), "game")
         points = ", ".join(

@@ -70,7 +70,7 @@ class TournamentPlan(BaseModel):
 
     def save(self, folder: Path) -> None:
         """Write the plan into a tournament's folder."""
-        make_folder(folder, "a tournament")
+        make_folder(folder, _("a tournament"))
         write_atomically(folder / FILE, self.text)
 
     @classmethod

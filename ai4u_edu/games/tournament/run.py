@@ -31,6 +31,7 @@ from ai4u_edu.games.tournament.plan import FILE as PLAN
 from ai4u_edu.games.tournament.standings import Standing
 from ai4u_edu.games.tournament.tournament import Tournament
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join, unpacked
 
 GAMES = "games"
 LIST = "games.json"
@@ -173,11 +174,11 @@ def _check(done: Tournament, play: Play) -> None:
     outcomes = {outcome.job.key: outcome for outcome in play([*jobs.values()])}
     for name, job in jobs.items():
         outcome = outcomes[job.key]
-        reason = outcome.error or outcome.result["reason"]
+        reason = outcome.error or unpacked(outcome.result["reason"])
         if reason:
             done.refused[name] = reason
     if len(done.admitted) < 2:
-        told = "; ".join(f"{name}: {reason}" for name, reason in done.refused.items())
+        told = join([join(pair, ": ") for pair in done.refused.items()], "; ")
         raise SetupError(_("expected two entries that can play at least; {told}", told=told))
 
 
@@ -217,7 +218,7 @@ def _take(done: Tournament, place: int, contest: Contest, ended: Sequence[JobOut
     ):
         names = [each.name for each in seating]
         file = f"{number:04}-{'-vs-'.join(map(_file_part, names))}-seed-{contest.seed}.episode"
-        told = dict(outcome.result)
+        told = dict(outcome.result) | {"reason": str(unpacked(outcome.result["reason"]))}
         has_recording = bool(told.pop("episode"))
         games.append(
             {

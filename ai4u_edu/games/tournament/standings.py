@@ -7,6 +7,7 @@ from typing import Any
 
 from ai4u_edu.base.optional_deps import need
 from ai4u_edu.games.tournament.contest import ContestResult
+from ai4u_edu.locale import gettext as _
 
 MAX_SURE_SIGMA = 6.5
 """Uncertainty of a rating above which it is provisional; a new one has 25/3."""
@@ -44,9 +45,8 @@ class Standing:
     @property
     def rating(self) -> str:
         """Rating in words."""
-        return f"{self.mu:.1f} ± {2 * self.sigma:.1f}" + (
-            " (provisional)" if self.is_provisional else ""
-        )
+        rating = f"{self.mu:.1f} ± {2 * self.sigma:.1f}"
+        return _("{rating} (provisional)", rating=rating) if self.is_provisional else rating
 
 
 def standings(names: Sequence[str], results: Sequence[ContestResult]) -> list[Standing]:

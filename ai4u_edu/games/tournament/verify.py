@@ -3,12 +3,13 @@
 import base64
 import json
 import os
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ai4u_edu.base.errors import AI4UError, SetupError, shorten
+from ai4u_edu.base.errors import AI4UError, SetupError, shorten, text_of
 from ai4u_edu.games.jobs import Engine, Job, JobOutcome, run_jobs
 from ai4u_edu.games.jobs.journal import FILE as JOURNAL
 from ai4u_edu.games.jobs.journal import line_of, read_line
@@ -16,8 +17,9 @@ from ai4u_edu.games.tournament.drivers import ANSWERS
 from ai4u_edu.games.tournament.game import result_fault
 from ai4u_edu.games.tournament.limits import is_over_time
 from ai4u_edu.games.tournament.plan import TournamentPlan
-from ai4u_edu.games.tournament.run import GAMES, LIST, SUMS, files_of, play_all, sums_of
+from ai4u_edu.games.tournament.run import GAMES, LIST, PAGE, SUMS, files_of, play_all, sums_of
 from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.locale import SOURCE, join, known_language, reader
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode, Replay
 from ai4u_edu.recording.episode import decode
@@ -36,7 +38,8 @@ def verify(
     Which games there are, their sides and seeds follow from the plan. Networks, scripts and
     recordings decide again; of a program, which is not run, the recorded answers are taken, and
     the sentence with which it failed. So are those of a network that was too slow, if it is again.
-    Standings and page follow from the games; each file has to be the same, bit for bit.
+    Standings and page follow from the games, the page in the language that it has there; each file
+    has to be the same, bit for bit.
 
     Args:
         folder: the tournament's.
@@ -80,7 +83,8 @@ class _Verification:
         """Return the number of games, and what differs."""
         done = Tournament(self._plan, self._folder)
         play_all(done, self._play)
-        expected = files_of(done)
+        with reader(self._language()):
+            expected = files_of(done)
         if JOURNAL in self._there:  # some of it is measured: how long, and how often it was tried
             expected[JOURNAL] = self._there[JOURNAL]
         expected[SUMS] = sums_of(expected)
@@ -107,6 +111,13 @@ class _Verification:
                     )
                 )
         return len(done.games), self._problems
+
+    def _language(self) -> str:
+        """Return the language of the folder's page, which whoever played it had."""
+        found = re.match(
+            rb'<!doctype html>\s*<html lang="([\w-]{2,20})"', self._there.get(PAGE, b"")
+        )
+        return known_language(found[1].decode() if found else "") or SOURCE
 
     # -- what the folder says ----------------------------------------------------------------------
 
@@ -278,8 +289,8 @@ class _Verification:
         try:
             verdict = Replay(decode(Episode, data, file)).verdict
         except AI4UError as error:
-            return str(error)
-        return f"{file}: {verdict.why or 'it is another game than the entries play now'}"
+            return text_of(error)
+        return join([file, verdict.why or _("it is another game than the entries play now")], ": ")
 
     def _compare_journal(self) -> None:
         """Compare the journal line by line, but for what is measured."""
@@ -297,7 +308,9 @@ class _Verification:
             else:
                 why = _difference(line, line_of(outcome), ("function", "arguments", "result"))
             if why:
-                self._problems.append(f"{JOURNAL}, job {number}: {why}")
+                self._problems.append(
+                    _("{journal}, job {number}: {why}", journal=JOURNAL, number=number, why=why)
+                )
             if not line["error"]:
                 seen.add(line["key"])
         missing = [each for each in self._outcomes.values() if each.job.key not in seen]

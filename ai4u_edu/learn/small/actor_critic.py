@@ -181,7 +181,13 @@ def _checked_key_actions(
         or not len(key_actions)
         or not ((low <= key_actions) & (key_actions <= high)).all()
     ):
-        raise SetupError(f"expected key actions of the space {space}, got {key_actions.tolist()}")
+        raise SetupError(
+            _(
+                "expected key actions of the space {space}, got {got}",
+                space=str(space),
+                got=str(key_actions.tolist()),
+            )
+        )
     return key_actions
 
 

@@ -122,7 +122,7 @@ class Opponents:
         for learner in self.learners:
             for opponent in self.of(learner):
                 if against == PLAYER and self._player(self._model.agent(opponent)) is None:
-                    others = f"{SELF!r} or a network" if is_alike else "a network"
+                    others = _("{me!r} or a network", me=SELF) if is_alike else _("a network")
                     raise SetupError(
                         _(
                             "against: only a person's keys drive {opponent!r} in {name!r}; "

@@ -227,7 +227,7 @@ def _learn(
     readings, wanted = torch.from_numpy(seen), torch.from_numpy(done)
     optimizer = torch.optim.AdamW(network.parameters(), lr=RATE, weight_decay=1e-2)
     best, state = float("inf"), network.state_dict()
-    bar = ProgressBar(updates, "updates", quiet=quiet)
+    bar = ProgressBar(updates, _("updates"), quiet=quiet)
     try:
         for update in range(1, updates + 1):
             batch = chance.choice(rest, min(BATCH, len(rest)), replace=False)

@@ -152,7 +152,7 @@ def imitate(
     how = settings or DaggerSettings()
     rounds, updates = how.rounds, how.updates
     lessons = TeacherData(teacher, scene, seed)
-    bar = ProgressBar(rounds, "rounds", quiet=quiet)
+    bar = ProgressBar(rounds, _("rounds"), quiet=quiet)
     torch.set_num_threads(TORCH_THREADS)
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)

@@ -366,7 +366,7 @@ class _Progress(BaseCallback):  # type: ignore[misc]  # seen without its types
     def _on_training_start(self) -> None:
         self._first = self.num_timesteps
         self._began = self._shown = time.perf_counter()
-        self._bar = ProgressBar(self._until, "steps", quiet=self._quiet)
+        self._bar = ProgressBar(self._until, _("steps"), quiet=self._quiet)
 
     def _on_step(self) -> bool:
         infos: list[dict[str, Any]] = self.locals["infos"]
@@ -400,16 +400,17 @@ class _Progress(BaseCallback):  # type: ignore[misc]  # seen without its types
             return
         self._shown = time.perf_counter()
         for check in self._evaluation.checks[self._told :]:
-            success = "" if check.success is None else f"success {check.success:.0%}, "
-            self._bar.note(
-                f"after {check.steps} steps, {check.seconds:.0f} s: {success}"
-                f"reward {check.reward:.2f} in {check.length:.0f} decisions"
-            )
+            self._bar.note(check.line)
         self._told = len(self._evaluation.checks)
         speed = (self.num_timesteps - self._first) / max(self._shown - self._began, 1e-9)
         reward = f"{np.mean(self._rewards):.2f}" if self._rewards else "-"
         success = f"{np.mean(self._won):.0%}" if self._won else "-"
         self._bar.show(
             min(self.num_timesteps, self._until),
-            f"{speed:.0f}/s  reward {reward}  success {success}",
+            _(
+                "{speed:.0f}/s  reward {reward}  success {success}",
+                speed=speed,
+                reward=reward,
+                success=success,
+            ),
         )

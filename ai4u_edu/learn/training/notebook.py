@@ -355,7 +355,7 @@ def export_checkpoints(
                 path=str(path),
             )
         )
-    make_folder(Path(out), "networks")
+    make_folder(Path(out), _("networks"))
     return [
         export(each, Path(out) / f"{each.stem}.onnx", with_critic=with_critic)
         for each in checkpoints

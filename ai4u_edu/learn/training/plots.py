@@ -13,6 +13,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.evaluating import Evaluation
 from ai4u_edu.learn.training.run import Check
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 COLOURS = ("blue", "orange", "green", "vermillion", "purple", "sky blue", "black")
 MARKERS = "osD^v<>"
@@ -49,11 +50,13 @@ def plot_evaluations(evaluations: Sequence[Evaluation], path: Path) -> None:
     lengths.boxplot(
         [each.lengths for each in evaluations], positions=places, orientation="horizontal"
     )
-    success.set(xlim=(-0.03, 1.03), xlabel=_("success (with 95% interval)"), yticks=places)
+    success.set(
+        xlim=(-0.03, 1.03), xlabel=translate(_("success (with 95% interval)")), yticks=places
+    )
     success.set_yticks(places, [_plain(each.name) for each in evaluations])
     success.invert_yaxis()
-    returns.set_xlabel(_("return of an episode"))
-    lengths.set_xlabel(_("decisions in an episode"))
+    returns.set_xlabel(translate(_("return of an episode")))
+    lengths.set_xlabel(translate(_("decisions in an episode")))
     _save(figure, path)
 
 
@@ -77,11 +80,13 @@ def plot_curves(curves: Mapping[str, Mapping[str, Sequence[Check]]], path: Path)
                 markersize=4,
                 label=_plain(name),
             )
-        panel.set(title=_plain(title), xlabel=_("decisions learned from"), ylim=(-0.03, 1.03))
+        panel.set(
+            title=_plain(title), xlabel=translate(_("decisions learned from")), ylim=(-0.03, 1.03)
+        )
         panel.set_xlim(left=0)
         panel.locator_params(axis="x", nbins=5)
         panel.grid(alpha=0.3)
-    panels[0].set_ylabel(_("success in a check"))
+    panels[0].set_ylabel(translate(_("success in a check")))
     if panels[0].lines:
         panels[0].legend(fontsize="small")
     _save(figure, path)

@@ -6,9 +6,12 @@ from typing import Any, TextIO, TypeVar
 
 from tqdm.auto import tqdm
 
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
+
 REFRESH_S = 0.2
 """Time between two updates of a bar."""
-FORMAT = "{bar:24} {n_fmt}/{total_fmt} {unit}{postfix}  {elapsed} left {remaining}"
+FORMAT = _("{bar:24} {n_fmt}/{total_fmt} {unit}{postfix}  {elapsed} left {remaining}")
 
 T = TypeVar("T")
 
@@ -43,17 +46,17 @@ class ProgressBar:
             self._bar = tqdm(
                 total=total,
                 initial=done,  # so that the time that is left follows from what this run does
-                unit=unit,
+                unit=translate(unit),
                 file=file,
                 leave=keep,
                 mininterval=REFRESH_S,
-                bar_format=FORMAT,
+                bar_format=translate(FORMAT),
             )
 
     def show(self, count: int, text: str = "") -> None:
         """Set the count, and the text beside the bar."""
         if self._bar is not None:
-            self._bar.set_postfix_str(text, refresh=False)
+            self._bar.set_postfix_str(translate(text), refresh=False)
             self._bar.update(count - self._bar.n)
 
     def add(self, count: int) -> None:
@@ -66,7 +69,7 @@ class ProgressBar:
         if self._bar is not None:
             # a notebook marks what comes from stderr as an error
             usual = sys.stdout if is_kernel() else sys.stderr
-            self._bar.write(line, file=self._file or usual)
+            self._bar.write(translate(line), file=self._file or usual)
 
     def close(self) -> None:
         """Draw the bar for the last time, or remove it."""
@@ -77,7 +80,7 @@ class ProgressBar:
 def counted(things: Iterable[T], name: str, *, quiet: bool = False) -> Iterator[T]:
     """Yield the things one by one while a bar shows how many have come."""
     items = list(things)
-    bar = ProgressBar(len(items), f"episodes, {name}", quiet=quiet, keep=False)
+    bar = ProgressBar(len(items), _("episodes, {name}", name=name), quiet=quiet, keep=False)
     try:
         for index, item in enumerate(items):
             bar.show(index)

@@ -32,6 +32,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from ai4u_edu.base.atomic_write import make_folder, partial_file
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.settings import Algorithm, Settings
+from ai4u_edu.locale import Text
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
@@ -75,6 +76,22 @@ class Check(BaseModel):
     """Mean reward of an episode."""
     length: float
     """Mean number of decisions in an episode."""
+
+    @property
+    def line(self) -> Text:
+        """Its results in a line."""
+        told = {**self.model_dump(), "success": self.success or 0.0}
+        if self.success is None:
+            return _(
+                "after {steps} steps, {seconds:.0f} s: reward {reward:.2f} in {length:.0f} "
+                "decisions",
+                **told,
+            )
+        return _(
+            "after {steps} steps, {seconds:.0f} s: success {success:.0%}, reward {reward:.2f} in "
+            "{length:.0f} decisions",
+            **told,
+        )
 
     @property
     def rank(self) -> tuple[float, float]:
@@ -161,7 +178,7 @@ class Run:
                     folder=str(self.folder),
                 )
             )
-        make_folder(self.folder, "a training")
+        make_folder(self.folder, _("a training"))
         scene.save(self.folder / "scene.yaml")
         self._write("config.json", config.model_dump(mode="json"))
 

@@ -14,7 +14,7 @@ from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.yaml.file import YamlFile
 
-EXPECTED = "lines such as algorithm: ..., sac: ..., ppo: ..."
+EXPECTED = _("lines such as algorithm: ..., sac: ..., ppo: ...")
 """The keys of a settings file, for messages."""
 FOLDER = Path(__file__).parent / "settings"
 

@@ -18,7 +18,7 @@ from rich.table import Table
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.episode_options import AGENT_NUMBERS, named_blocks
 from ai4u_edu.base.csv_table import csv_table
-from ai4u_edu.base.errors import AI4UError, SetupError, suggest
+from ai4u_edu.base.errors import AI4UError, SetupError, suggest, text_of
 from ai4u_edu.base.parameters import DataPath, explain
 from ai4u_edu.blocks import Block, Controller, LocalBrain
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
@@ -29,7 +29,7 @@ from ai4u_edu.learn.training.evaluate_jobs import evaluate_on
 from ai4u_edu.learn.training.evaluating import Evaluation, between
 from ai4u_edu.learn.training.policies import entrant, expect_here
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import translate
+from ai4u_edu.locale import join, translate
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.scene_data import SceneData
 from ai4u_edu.scenes.serialization import PlainDataError, is_serializable, to_plain
@@ -42,7 +42,7 @@ MAX_LINE_CHARS = 120
 FROM_SCENE = "scene"
 """Name of the driver that the scene itself has."""
 NO_FIT = "does not fit agent"
-TO_FIT = "; vary another number, or choose a controller: those fit any sensors"
+TO_FIT = _("vary another number, or choose a controller: those fit any sensors")
 """Hint for a network that was trained with other sensors."""
 
 
@@ -274,14 +274,14 @@ def with_value(scene: Scene, parameter: NumberParameter, value: float) -> Scene:
         changed = Scene(SceneDescription.model_validate(plain), scene.folder)
         changed.build().reset(0)
     except ValidationError as error:
-        text = "; ".join(each.text for each in explain(error.errors(), SceneDescription))
+        text = join([each.text for each in explain(error.errors(), SceneDescription)], "; ")
     except PlainDataError as error:
-        text = "; ".join(each.text for each in error.problems)
+        text = join([each.text for each in error.problems], "; ")
     except AI4UError as error:
-        text = f"{error}{TO_FIT if NO_FIT in str(error) else ''}"
+        text = join([text_of(error), *([TO_FIT] if NO_FIT in str(error) else [])], "; ")
     else:
         return changed
-    raise SetupError(f"{parameter.name} = {value:g}: {text}")
+    raise SetupError(join([f"{parameter.name} = {value:g}", text], ": "))
 
 
 def with_driver(scene: Scene, spec: str, agent: str = "") -> tuple[Scene, str]:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from PIL import Image
 
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.dry_run import IdleBrain
 from ai4u_edu.scenes import Scene, SceneDescription
 from ai4u_edu.scenes.description import LEVELS
@@ -82,7 +83,7 @@ def write_picture(scene: Scene, folder: Path) -> Path:
     Raises:
         SetupError: the folder can't be created.
     """
-    make_folder(folder, "pictures")
+    make_folder(folder, _("pictures"))
     name = re.sub(r"[^\w-]", "_", scene.description.name)[:MAX_FILE_NAME_CHARS]
     path = folder / f"{name}{PICTURE_SUFFIX}"
     write_atomically(path, scene_picture(scene, LIBRARY_PICTURE_PX))

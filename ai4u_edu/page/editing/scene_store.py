@@ -40,7 +40,7 @@ class SceneStore:
     def __init__(self, folder: Path) -> None:
         self.folder = folder.absolute()
         self._lock = threading.Lock()
-        make_folder(self.folder, "scenes")
+        make_folder(self.folder, _("scenes"))
 
     def names(self) -> list[str]:
         """Return the names of all saved scenes."""

@@ -14,6 +14,7 @@ from ai4u_edu.games.tournament import drivers
 from ai4u_edu.games.tournament.entry import parse_entry, with_names
 from ai4u_edu.games.tournament.game import game
 from ai4u_edu.games.tournament.sides import sides_of
+from ai4u_edu.locale import Catalogue, unpacked
 from ai4u_edu.recording import Episode
 from ai4u_edu.recording.episode import decode
 from tests.games.tournament.bad_networks import BAD, INPUTS
@@ -102,8 +103,9 @@ def test_a_network_that_can_t_play_is_refused_with_a_sentence(
     make(path)
     told = played(str(path), "PushOutController")
     assert told["forfeit"] == 0
-    assert BAD[make] in told["reason"]
-    assert len(told["reason"]) <= 300
+    reason = unpacked(told["reason"])
+    assert BAD[make] in reason
+    assert len(reason) <= 300
 
 
 def test_the_other_side_is_not_blamed(tmp_path: Path) -> None:
@@ -124,10 +126,13 @@ def test_the_scenes_controllers_play_both_sides() -> None:
 def test_an_agent_without_a_driver_is_told() -> None:
     told = played("scene", "scene", scene="tag")
     assert told["forfeit"] == 0
-    assert told["reason"] == "the scene has no scripted controller for agent 'chaser'"
+    reason = unpacked(told["reason"])
+    assert reason == "the scene has no scripted controller for agent 'chaser'"
+    translation = Catalogue("pt_BR").translate(reason)
+    assert translation == "a cena não tem um piloto programado para o agente 'chaser'"
     told = played("a=striker:StrikerController", "scene", scene="soccer")
     assert told["forfeit"] == 0
-    assert "it has no driver for agent 'blue_keeper'" in told["reason"]
+    assert "it has no driver for agent 'blue_keeper'" in unpacked(told["reason"])
 
 
 @pytest.mark.slow
@@ -195,7 +200,7 @@ def test_a_program_that_fails_loses(source: str, told: str, tmp_path: Path) -> N
     bad, good = programs(tmp_path, source, STAND)
     result = played(good, bad, trust_python=True)
     assert result["forfeit"] == 1
-    assert told in result["reason"]
+    assert told in unpacked(result["reason"])
 
 
 @pytest.mark.slow
@@ -207,7 +212,7 @@ def test_a_program_that_closes_its_output_and_goes_on_loses(
     bad, good = programs(tmp_path, SILENT, STAND)
     result = played(good, bad, trust_python=True)
     assert result["forfeit"] == 1
-    assert "the program's process has closed its output" in result["reason"]
+    assert "the program's process has closed its output" in unpacked(result["reason"])
 
 
 MEMORY = "def decide(percept):\n    x = bytearray(3 * 2**30)\n    return {'move': [0, 0, 0, 0]}\n"
@@ -240,4 +245,4 @@ def test_a_program_has_no_memory_files_or_network(tmp_path: Path) -> None:
         ):
             result = played(path, "random", trust_python=True)
             assert result["forfeit"] == 0, path
-            assert told in result["reason"]
+            assert told in unpacked(result["reason"])

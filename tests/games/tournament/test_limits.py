@@ -11,6 +11,7 @@ from ai4u_edu.games.tournament import limits
 from ai4u_edu.games.tournament.entry import file_driver
 from ai4u_edu.games.tournament.game import game
 from ai4u_edu.games.tournament.limits import DECISION_CPU_S, GAME_CPU_S, CpuMeter, OverTimeError
+from ai4u_edu.locale import unpacked
 from tests.waiting import LIMIT_S, until
 
 
@@ -103,6 +104,6 @@ def test_the_limits_of_a_game_hold_for_the_load_of_a_network(
     monkeypatch.setattr(drivers, "LOAD_CPU_S", 0.02)
     told = game({"name": "sumo"}, 0, entries)
     assert (told["forfeit"], told["ticks"]) == (0, 0)
-    assert told["reason"] == "it took more than 5 s of processor time to load"
+    assert unpacked(told["reason"]) == "it took more than 5 s of processor time to load"
     monkeypatch.setattr(drivers, "LOAD_CPU_S", LIMIT_S)
     assert game({"name": "sumo"}, 0, entries)["forfeit"] == -1

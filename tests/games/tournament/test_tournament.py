@@ -17,6 +17,7 @@ from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import play_all
 from ai4u_edu.games.tournament.standings import standings
 from ai4u_edu.games.tournament.tournament import Tournament
+from ai4u_edu.locale import reader
 from ai4u_edu.recording import Episode
 from tests.games.tournament.bad_networks import INPUTS, few_outputs
 from tests.learn.training.networks import network
@@ -180,12 +181,16 @@ def test_a_tournament_is_rated_shown_and_played_again(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_scene_of_one_agent_is_a_race(tmp_path: Path) -> None:
-    output = run(
-        *("box_chase", "zoo", "random", "--seeds", "2"),
-        *("--engine", "inline", "--out", str(tmp_path)),
-    )
+    with reader("pt_BR"):
+        output = run(
+            *("box_chase", "zoo", "random", "--seeds", "2"),
+            *("--engine", "inline", "--out", str(tmp_path)),
+        )
     assert output.splitlines()[1].split()[:2] == ["1", "zoo"]
-    assert "who reaches the goal sooner wins" in (tmp_path / "index.html").read_text()
+    page = (tmp_path / "index.html").read_text()
+    assert '<html lang="pt-BR">' in page
+    assert "ganha quem chega antes ao objetivo" in page
+    # whoever verifies it may speak another language
     assert "4 games, played again" in run("verify", str(tmp_path), "--engine", "inline")
 
 

@@ -126,7 +126,7 @@ def test_unlike_budgets_are_told_on_the_page() -> None:
     several = parameters("ppo.n_steps=31,37,41")
     unlike = plan(algorithms=("sac", "ppo"), steps=100, parameters=several)
     assert unlike.with_equal_budgets() == unlike, "no number of steps is near"
-    told = "different numbers of decisions, which is no fair race: sac: 100; ppo: 124 or 148 or 164"
+    told = "different numbers of decisions, which is no fair race: sac: 100; ppo: 124 / 148 / 164"
     assert told in page_of(unlike, [result(0, 1.0)], None, 5, [])
     settings = plan(algorithms=("sac", "ppo"), steps=None)
     assert "sac: 200; ppo: 256" in page_of(settings, [result(0, 1.0)], None, 5, [])
@@ -209,7 +209,8 @@ def test_a_trial_that_failed_is_in_table_and_page_as_text() -> None:
     page = page_of(plan(parameters=parameters("gamma=<b>")), [result(0, 1.0), failed], None, 5, [])
     assert "<script>" not in page
     assert "<b>" not in page
-    told = "5 trials (all combinations) of 64 steps: 1 finished, 1 failed. 3 have not run yet."
+    told = "Trials: 5, all combinations. Decisions of each: 64. Finished: 1, failed: 1. "
+    told += "3 have not run yet."
     assert told in " ".join(page.split())
     rows = [*csv.DictReader(csv_text([result(0, 1.0), failed], ["gamma"]).splitlines())]
     assert [row["state"] for row in rows] == ["finished", "failed"]

@@ -16,6 +16,7 @@ test("a text without a translation is English", () => {
   assert.equal(t("Saved as {name}.", { name: "maze" }), "Saved as maze.");
   assert.equal(tn("{n} drive", "{n} drives", 1), "1 drive");
   assert.equal(tn("{n} drive", "{n} drives", 0), "0 drives");
+  assert.equal(tn("{n} drive", "{n} drives", 8192), "8,192 drives");
 });
 
 test("texts and plurals are translated", () => {

@@ -5,7 +5,7 @@
  * @import { Panel } from "../panel.js"
  */
 import { button, element, keyed, setAttributes, setText } from "../../shared/dom.js";
-import { t } from "../../shared/text.js";
+import { t, whole } from "../../shared/text.js";
 import { Card } from "../widgets/card.js";
 import { scenePicture } from "../../scenes/picture.js";
 import { fact } from "../widgets/parts.js";
@@ -67,7 +67,7 @@ export class EpisodeCard {
     if (!isOpen) return;
     this.#facts.driver.set(episode.driver);
     this.#facts.score.set(shortNumber(reward));
-    this.#facts.steps.set(String(decisions));
+    this.#facts.steps.set(whole(decisions));
     setText(this.#facts.seed.element.querySelector("dd"), String(episode.seed));
     this.#showDownloads(downloads);
   }

@@ -18,9 +18,10 @@ from ai4u_edu.base.html_template import render_html
 from ai4u_edu.learn.training.evaluating import Evaluation
 from ai4u_edu.learn.training.settings import NO_REWARD
 from ai4u_edu.learn.training.sweep.plan import SweepPlan
-from ai4u_edu.learn.training.sweep.result import TrialResult, groups, ranked
+from ai4u_edu.learn.training.sweep.result import STATES, TrialResult, groups, ranked
 from ai4u_edu.learn.training.sweep.search_space import LEFT_OUT, text_of
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 TITLES = (_("Learning curves"), _("Settings and results"), _("Without one reward term"))
 COLOURS = {"sac": "blue", "ppo": "orange", "dqn": "green"}
@@ -55,10 +56,11 @@ def page_of(
         total=total,
         missing=total - len(results),
         counts=Counter(each.state for each in results),
+        states=STATES,
         evaluation=evaluation,
         groups=groups(results) if has_equal_settings else None,
         pictures=[
-            (title, base64.b64encode(picture.read_bytes()).decode())
+            (translate(title), base64.b64encode(picture.read_bytes()).decode())
             for title, picture in zip(TITLES, pictures, strict=False)
         ],
         order=order,
@@ -117,14 +119,17 @@ def _plot_curves(results: Sequence[TrialResult], path: Path) -> None:
         named.add(algorithm)
     has_goal = checked[0].has_goal
     panel.set(
-        xlabel=_("decisions learned from"), ylabel=_("success in a check") if has_goal else "reward"
+        xlabel=translate(_("decisions learned from")),
+        ylabel=translate(_("success in a check") if has_goal else _("reward")),
     )
     if has_goal:
         panel.set_ylim(-0.03, 1.03)
     panel.set_xlim(left=0)
     panel.grid(alpha=0.3)
     panel.set_title(
-        _("best: trial {number} (thick); pruned ones are dashed", number=checked[0].number),
+        translate(
+            _("best: trial {number} (thick); pruned ones are dashed", number=checked[0].number)
+        ),
         fontsize=10,
     )
     for handle in panel.legend(fontsize="small").get_lines():
@@ -135,7 +140,9 @@ def _plot_curves(results: Sequence[TrialResult], path: Path) -> None:
 def _plot_parallel(results: Sequence[TrialResult], names: Sequence[str], path: Path) -> None:
     """Plot a line for each trial through its algorithm, its settings and its result."""
     checked = [each for each in results if each.checks]
-    columns: dict[str, list[Any]] = {"algorithm": [each.choice.algorithm for each in checked]}
+    columns: dict[str, list[Any]] = {
+        translate(_("algorithm")): [each.choice.algorithm for each in checked]
+    }
     for name in names:
         columns[name] = [each.choice.settings.get(name) for each in checked]
     values = [each.value for each in checked]
@@ -148,7 +155,7 @@ def _plot_parallel(results: Sequence[TrialResult], names: Sequence[str], path: P
     lines = sorted(zip(values, *heights, strict=True))  # the best ones are drawn last
     for value, *points in lines:
         panel.plot(range(len(points)), points, color=colormaps["viridis"](scale(value)), alpha=0.7)
-    title = "success" if checked[0].has_goal else "reward"
+    title = translate(_("success") if checked[0].has_goal else _("reward"))
     labels = [name.replace("$", r"\$") for name in (*columns, title)]
     panel.set_xticks(range(len(labels)), labels)
     panel.set_yticks([])
@@ -180,12 +187,13 @@ def _plot_terms(results: Sequence[TrialResult], path: Path) -> None:
         curves = np.array([each.curve for each in members])[:, : len(xs)]
         for curve in curves:
             panel.plot(xs, curve, color=colour, alpha=0.35, linewidth=0.9)
-        label = _("all terms") if term == NO_REWARD else f"without {term}"
-        panel.plot(xs, curves.mean(axis=0), color=colour, linewidth=2.6, marker=".", label=label)
+        label = _("all terms") if term == NO_REWARD else _("without {term}", term=term)
+        mean = curves.mean(axis=0)
+        panel.plot(xs, mean, color=colour, linewidth=2.6, marker=".", label=translate(label))
     has_goal = next(iter(found.values()))[0].has_goal
     panel.set(
-        xlabel=_("decisions learned from"),
-        ylabel=_("success in a check") if has_goal else _("reward (all terms)"),
+        xlabel=translate(_("decisions learned from")),
+        ylabel=translate(_("success in a check") if has_goal else _("reward (all terms)")),
     )
     if has_goal:
         panel.set_ylim(-0.03, 1.03)

@@ -139,7 +139,7 @@ class SweepPlan(BaseModel):
         if len(set[int]().union(*budgets.values())) < 2:
             return ""
         told = "; ".join(
-            f"{name}: {' or '.join(f'{each:,}' for each in sorted(seen))}"
+            f"{name}: {' / '.join(f'{each:,}' for each in sorted(seen))}"
             for name, seen in budgets.items()
         )
         return _(
@@ -171,7 +171,7 @@ class SweepPlan(BaseModel):
 
     def save(self, folder: Path) -> None:
         """Write the plan into a sweep's folder."""
-        make_folder(folder, "a sweep")
+        make_folder(folder, _("a sweep"))
         write_atomically(folder / FILE, self.model_dump_json(indent=1) + "\n")
 
     @classmethod

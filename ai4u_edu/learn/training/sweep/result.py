@@ -38,6 +38,8 @@ class _Told(BaseModel):
         return checks
 
 
+STATES = {"finished": _("finished"), "pruned": _("pruned"), "failed": _("failed")}
+"""States of trials in words."""
 _NOTHING = _Told.model_construct(checks=(), steps=0, pruned=False, network="")
 
 
@@ -132,7 +134,7 @@ class TrialResult:
             _("check length"): "" if best is None else f"{best.length:.1f}",
             _("at step"): "" if best is None else str(best.steps),
             _("steps"): str(self.steps or ""),
-            _("state"): self.state,
+            _("state"): STATES[self.state],
         }
 
 
@@ -155,17 +157,17 @@ def groups(results: Sequence[TrialResult]) -> list[dict[str, str]]:
         if each.checks:
             found.setdefault(each.label, []).append(each)
     order = sorted(found.items(), key=lambda pair: -float(np.mean([e.value for e in pair[1]])))
-    rows = []
+    rows: list[dict[str, str]] = []
     for label, members in order:
         values = [each.value for each in members]
         sign = "{:.0%}" if members[0].has_goal else "{:.2f}"
         rows.append(
             {
-                "settings": label,
-                "seeds": str(len(values)),
-                "mean": sign.format(np.mean(values)),
-                "worst": sign.format(min(values)),
-                "best": sign.format(max(values)),
+                _("settings"): label,
+                _("seeds"): str(len(values)),
+                _("mean"): sign.format(np.mean(values)),
+                _("worst"): sign.format(min(values)),
+                _("best"): sign.format(max(values)),
             }
         )
     return rows

@@ -11,7 +11,7 @@ from ai4u_edu.base.errors import SetupError
 from ai4u_edu.learn.training.settings import ALGORITHMS, Algorithm, Settings
 from ai4u_edu.locale import gettext as _
 
-FORMS = (
+FORMS = _(
     "NAME=LOW..HIGH, NAME=LOW..HIGH:log, or NAME=VALUE,VALUE, as in learning_rate=1e-4..1e-2:log "
     "or layers=64x64,128x128"
 )

@@ -32,14 +32,14 @@ def training_part(progress: TrainingProgress) -> TrainingPart:
 
 
 def _text(progress: TrainingProgress) -> str:
-    decisions = f"{progress.decisions:,}"
+    decisions = progress.decisions
     if progress.is_over:
         return _(
-            "Training is over after {decisions} decisions. The best policy drives now.",
+            "Training is over after {decisions:,} decisions. The best policy drives now.",
             decisions=decisions,
         )
     return _(
-        "Learned from {decisions} of {total} decisions so far.",
+        "Learned from {decisions:,} of {total:,} decisions so far.",
         decisions=decisions,
-        total=f"{progress.total:,}",
+        total=progress.total,
     )

@@ -54,6 +54,11 @@ class Rules:
             )
         if not MIN_RECEIVE_TIMEOUT_MS <= self.receive_timeout <= MAX_RECEIVE_TIMEOUT_MS:
             raise SetupError(
-                f"receive_timeout: expected a number of milliseconds from {MIN_RECEIVE_TIMEOUT_MS} "
-                f"to {MAX_RECEIVE_TIMEOUT_MS}, got {self.receive_timeout}"
+                _(
+                    "receive_timeout: expected a number of milliseconds from {least} to {most}, "
+                    "got {got}",
+                    least=MIN_RECEIVE_TIMEOUT_MS,
+                    most=MAX_RECEIVE_TIMEOUT_MS,
+                    got=self.receive_timeout,
+                )
             )
