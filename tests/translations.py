@@ -31,7 +31,7 @@ from ai4u_edu.lessons.translation import texts_of, translated_cell
 from ai4u_edu.locale import LANGUAGES, LESSONS, LIBRARY, PAGE, PYTHON, SOURCE
 from ai4u_edu.locale.catalogues import catalogue_file
 from ai4u_edu.missions.mission import library_missions
-from ai4u_edu.page.editing.scene_pictures import EMPTY_SCENE, load_by_name
+from ai4u_edu.page.editing.scene_pictures import load_by_name, template_names
 from ai4u_edu.scenes import Scene
 from tests.form_texts import form_texts
 
@@ -147,10 +147,11 @@ def _in_code(
 
 
 def _scene_texts() -> Iterator[tuple[English, str]]:
-    for name in (*Scene.names(), EMPTY_SCENE):
+    templates = template_names()
+    for name in (*Scene.names(), *templates):
         loaded = load_by_name(name)
         assert loaded is not None
-        scene, folder = loaded.description, "templates" if name == EMPTY_SCENE else "library"
+        scene, folder = loaded.description, "templates" if name in templates else "library"
         for text in (scene.title, scene.goal, scene.controls, scene.rewards):
             if text:
                 yield text, f"ai4u_edu/scenes/{folder}/{name}.yaml"

@@ -30,6 +30,7 @@ from ai4u_edu.wire.class_link import (
     Switches,
 )
 from tests.browser.contrast import low_contrasts
+from tests.browser.fit import cut_texts, english_texts
 from tests.browser.plain_page import ASKED
 from tests.browser.sent_frames import SentFrames
 from tests.browser.served_viser import PLAIN, centre, connected, driver_status
@@ -89,7 +90,8 @@ class RoomOfClass:
             stands_still: the page's time goes on only as the test says.
         """
         make = new_page if stands_still else quick_page
-        page = make(self.chromium, reduced_motion="reduce", extra_http_headers=ASKED, **options)
+        headers = {**ASKED, "Accept-Language": str(options.get("locale", "en-US"))}
+        page = make(self.chromium, reduced_motion="reduce", extra_http_headers=headers, **options)
         if stands_still:
             page.clock.install(time=0)
             page.clock.pause_at(3_600_000)
@@ -147,6 +149,25 @@ def school(chromium: Browser, shared_server: SharedServer) -> Iterator[RoomOfCla
 
 OURS = ".ai4u-class-bar, .ai4u-dock, dialog"
 """Selector of our parts of the page: others stand for viser's."""
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
+def test_its_portuguese_texts_fit(school: RoomOfClass, width: int, height: int) -> None:
+    page = school.page(width=width, height=height, locale="pt-BR", stands_still=True)
+    people = People((FOX, OWL, HARE), has_teacher=True)
+    work = Assignment("a1", "Two wires", "", None, "05 Two wires")
+    school.tell(LinkWelcome(VERSION, "", ""), people, work)
+    race = CurrentRace("r1", "running", 0.0, "maze", 1, ())
+    school.member.view.set_race(race, school.clock(), 4.5)
+    bar = page.get_by_role("region", name="Turma", exact=True)
+    expect(bar).to_contain_text("4.50 s")
+    assert cut_texts(page) == []
+    assert english_texts(page, "pt_BR") <= {"Name"}, "a label of what stands for viser's page"
+    school.member.view.set_race(None, 0.0, None)
+    school.tell(Attention("", "Olhem para o quadro, por favor", 300.0))
+    expect(bar).to_contain_text("Olhem para o quadro")
+    assert cut_texts(page) == []
+    assert english_texts(page, "pt_BR") <= {"Name"}, "a label of what stands for viser's page"
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from ai4u_edu.locale import LIBRARY, Catalogue
+from ai4u_edu.missions.mission import library_missions
 from tests.browser.fit import cut_texts, english_texts
 from tests.browser.panel_page import CANVAS
 from tests.browser.wall_data import handed_in, race, tournament
@@ -21,6 +23,10 @@ SIZES = pytest.mark.parametrize(("width", "height"), [(1280, 800), (390, 844)])
 TABS = ("Dirigir", "Montar", "Mundo", "Código", "Passado", "Ensinar")
 OPEN_CARDS = """(tab) => [...tab.querySelectorAll(".ai4u-card-head[aria-expanded=false]")]
   .slice(0, 6).forEach((head) => head.click())"""
+OPEN_MISSION = """(mission) => { // as another page of the same person does it
+  localStorage["ai4u-mission-"] = JSON.stringify(mission);
+  dispatchEvent(new StorageEvent("storage", { key: "ai4u-mission-" }));
+}"""
 CLASS_STATES = {
     "projector": {"shown": {"kind": "race", "room": ""}, "race": race(9)},
     "teacher": {"tournament": tournament(6), "handed_in": handed_in(7)},
@@ -68,6 +74,39 @@ def test_all_tabs(
     with subtests.test("help"):
         page.get_by_role("button", name="Ajuda", exact=True).first.click()
         check(page)
+    page.context.close()
+
+
+def longest_steps(count: int) -> list[tuple[str, int]]:
+    """Return mission and number of the steps with the longest sentences, and the longest title."""
+    texts, missions = Catalogue(LANGUAGE, LIBRARY), library_missions().by_name
+    steps = [
+        (len(texts.message(step.say)), name, number)
+        for name, mission in missions.items()
+        for number, step in enumerate(mission.steps)
+    ]
+    title = max(missions, key=lambda name: len(texts.message(missions[name].title)))
+    return [*((name, number) for _length, name, number in sorted(steps)[-count:]), (title, 0)]
+
+
+@SIZES
+def test_mission_card(
+    chromium: Browser, server: Played, width: int, height: int, subtests: pytest.Subtests
+) -> None:
+    page = new_page(chromium, width, height, reduced_motion="reduce", **BROWSER)
+    CANVAS.serve(page, server.url)
+    page.goto(server.url)
+    card = page.get_by_role("region", name="Missão", exact=True)
+    card.wait_for()
+    for mission, step in longest_steps(3):
+        title = Catalogue(LANGUAGE, LIBRARY).message(library_missions().by_name[mission].title)
+        for is_hidden in (False, True):
+            with subtests.test(mission=mission, is_hidden=is_hidden):
+                page.evaluate(
+                    OPEN_MISSION, {"mission": mission, "step": step, "isHidden": is_hidden}
+                )
+                expect(card).to_contain_text(title)
+                check(page)
     page.context.close()
 
 

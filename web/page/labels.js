@@ -8,6 +8,7 @@ const KEY_LABELS = {
   ArrowDown: "↓",
   ArrowLeft: "←",
   ArrowRight: "→",
+  Space: t("Space"),
   ShiftLeft: "Shift",
   ShiftRight: t("Right Shift"),
   Comma: ",",
