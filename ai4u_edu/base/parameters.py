@@ -6,10 +6,11 @@ construction, the JSON Schema, forms and tables are derived from it::
     reach: PositiveMetres = 20.0
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Annotated, Any, NamedTuple, get_args
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Annotated, Any, NamedTuple, cast, get_args
 
 from pydantic import AfterValidator, BaseModel, Field, StringConstraints
+from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from ai4u_edu.base.errors import shown, suggest, text_of
@@ -29,6 +30,18 @@ def quantity(
     ge = -MAX_NUMBER if ge is None and gt is None else ge
     le = MAX_NUMBER if le is None and lt is None else le
     return Field(json_schema_extra={"unit": unit}, gt=gt, ge=ge, lt=lt, le=le)
+
+
+def default_of(field: FieldInfo) -> Any:
+    """Return a parameter's default; a list or a mapping is a new one each time.
+
+    pydantic's ``get_default`` asks each time which arguments the maker of a default takes. Python
+    parses a text for that: it takes up to 2 ms, and in CPython 3.11 it may fail where two threads
+    do so at once; see base/syntax.py.
+    """
+    if field.default_factory is None:
+        return field.get_default()
+    return cast(Callable[[], Any], field.default_factory)()
 
 
 MAX_NUMBER = 1e9

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ai4u_edu.base.errors import NameNotFoundError, suggest
+from ai4u_edu.base.parameters import default_of
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import join
@@ -50,7 +51,7 @@ def _known_groups(block: Block, view: WorldView) -> set[str]:
 
 
 def _missing(block: Block, parameter: str, view: WorldView) -> list[str]:
-    by_default = _names(block.parameters()[parameter].get_default(call_default_factory=True))
+    by_default = _names(default_of(block.parameters()[parameter]))
     known = _known_groups(block, view)
     return [
         _(

@@ -17,7 +17,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ArgsKwargs, core_schema
 
 from ai4u_edu.base.errors import ParameterError, shown
-from ai4u_edu.base.parameters import explain, format_problems
+from ai4u_edu.base.parameters import default_of, explain, format_problems
 from ai4u_edu.base.syntax import parsed_class
 from ai4u_edu.locale import Text, join
 from ai4u_edu.locale import gettext as _
@@ -117,7 +117,7 @@ class Parameterized:
         return {
             name: value
             for name, value in self.values().items()
-            if value != declared[name].get_default(call_default_factory=True)
+            if value != default_of(declared[name])
         }
 
     def changed(self, **values: Any) -> Self:

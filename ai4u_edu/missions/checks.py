@@ -9,6 +9,7 @@ from pydantic import Field, StringConstraints, field_validator, model_validator
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.errors import SetupError, suggest
+from ai4u_edu.base.parameters import default_of
 from ai4u_edu.blocks import Block
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import library_text
@@ -507,7 +508,7 @@ def _value_in(block: Mapping[str, Any], name: str) -> Any:
     field = Block.types[block["type"]].parameters().get(name)
     if name in block or field is None:
         return block.get(name)
-    return field.get_default(call_default_factory=True)
+    return default_of(field)
 
 
 AnyCheck = Annotated[

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from ai4u_edu import blocks
+from ai4u_edu import BasicAgent, blocks
 from ai4u_edu.base.syntax import parsed, parsed_class
 
 CLASSES = [each for each in vars(blocks).values() if isinstance(each, type)][:6]
@@ -64,3 +64,16 @@ def test_who_is_disturbed_by_others_tries_again(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(ast, "parse", disturbed)
     assert isinstance(parsed("x = 1").body[0], ast.Assign)
+
+
+def test_to_tell_what_an_agent_was_given_makes_no_tree(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The world's thread and those of pages ask for it, whenever an episode begins."""
+
+    def disturbed(*_: object) -> None:
+        raise SystemError("AST constructor recursion depth mismatch")
+
+    agent = BasicAgent(id="0", body="robot")
+    with monkeypatch.context() as meanwhile:  # pytest parses what fails
+        meanwhile.setattr(ast, "parse", disturbed)
+        given = agent.given()
+    assert given == {"body": "robot"}

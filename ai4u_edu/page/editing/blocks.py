@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 from ai4u_edu.base.errors import shown, suggest
-from ai4u_edu.base.parameters import MAX_COUNT, ParameterProblem, format_path
+from ai4u_edu.base.parameters import MAX_COUNT, ParameterProblem, default_of, format_path
 from ai4u_edu.blocks import (
     Actuator,
     Block,
@@ -106,7 +106,7 @@ def changed(agent: Plain, path: BlockPath, values: Plain) -> Plain:
     cls = Block.types.get(str(block["type"]))
     declared = cls.parameters() if cls else {}
     for name, value in values.items():
-        default = declared[name].get_default(call_default_factory=True) if name in declared else ...
+        default = default_of(declared[name]) if name in declared else ...
         if value is None or (value == default and type(value) is type(default)):
             del block[name]
     schema = schema_of(cls) if cls is not None else {}

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.base.parameters import ParameterProblem, default_of
 from ai4u_edu.blocks import Block, Brain, LocalBrain, NeuralNetController
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
@@ -161,7 +161,7 @@ def _rhythm(brains: list[Plain]) -> dict[str, Any]:
 
 
 def _default(name: str) -> Any:
-    return Brain.parameters()[name].get_default()
+    return default_of(Brain.parameters()[name])
 
 
 def _controller_title(cls: type[Block]) -> str:

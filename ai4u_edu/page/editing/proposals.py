@@ -6,7 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ai4u_edu.base.parameters import ParameterProblem
+from ai4u_edu.base.parameters import ParameterProblem, default_of
 from ai4u_edu.blocks import Block
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import ngettext
@@ -278,7 +278,7 @@ def _amounts(reward: Plain) -> dict[str, float]:
     """Return what a reward function pays, by the names of its parameters."""
     cls = Block.types[str(reward["type"])]
     values = {
-        name: reward.get(name, field.get_default(call_default_factory=True))
+        name: reward.get(name, default_of(field))
         for name, field in cls.parameters().items()
         if name == "reward" or name.endswith("_reward")
     }

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, cast
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.rebind import Blocks, rebind, sense_again
 from ai4u_edu.base.errors import AI4UError, WorldError
+from ai4u_edu.base.parameters import default_of
 from ai4u_edu.blocks import Actuator, Block, Brain, RemoteBrain, RewardFunc, Sensor
 from ai4u_edu.blocks.brains.network import files_in
 from ai4u_edu.page.editing.change_result import When
@@ -453,7 +454,7 @@ class _AgentEdits:
 def _set_runtime_parameters(agent: BasicAgent, plain: Plain) -> None:
     """Set those parameters of an agent, besides its blocks, that can change at run time."""
     for name in RUNTIME_PARAMETERS:
-        default = BasicAgent.parameters()[name].get_default(call_default_factory=True)
+        default = default_of(BasicAgent.parameters()[name])
         setattr(agent, name, plain.get(name, default))
 
 

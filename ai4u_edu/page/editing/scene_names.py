@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any
 
+from ai4u_edu.base.parameters import default_of
 from ai4u_edu.blocks import Block
 from ai4u_edu.page.editing.state import EditState
 
@@ -83,7 +84,7 @@ def name_of(block: Mapping[str, Any], parameter: str) -> str:
     if given:
         return str(given)
     cls = Block.types[str(block["type"])]
-    default = cls.parameters()[parameter].get_default() if parameter in cls.parameters() else ""
+    default = default_of(cls.parameters()[parameter]) if parameter in cls.parameters() else ""
     return str(default or _default_name(cls))
 
 

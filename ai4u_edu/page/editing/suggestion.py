@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from ai4u_edu.base.parameters import default_of
 from ai4u_edu.blocks import Actuator, Block, Brain, RewardFunc, Sensor
 from ai4u_edu.blocks.brains.zoo import names as in_the_zoo
 from ai4u_edu.page.editing.plain import Plain
@@ -26,7 +27,7 @@ def suggest_block(state: EditState, agent_id: str, type_name: str) -> Plain:
     cls, names = Block.types[type_name], SceneNames(state, agent_id)
     block: dict[str, Any] = {"type": type_name}
     for name, field in cls.parameters().items():
-        known, default = names.fitting(name), field.get_default(call_default_factory=True)
+        known, default = names.fitting(name), default_of(field)
         is_unknown_name = known is not None and default not in ("", None, *known)
         if not (field.is_required() or is_unknown_name or name == "group_code"):
             continue
