@@ -83,7 +83,8 @@ def play(
     )
     if brain:
         build = load_option(DRIVERS, "--brain").with_drivers
-        settings = replace(settings, build=partial(build, specs=brain, is_served=True))
+        build = partial(build, specs=brain, is_served=True, receive_timeout=receive_timeout)
+        settings = replace(settings, build=build)
     settings = _with_class(_with_work(settings), class_url, code, name_choice, port)
     if autosave and settings.saved_scenes is None and settings.class_folder is None:
         settings = replace(settings, saved_scenes=_own_scenes())

@@ -45,6 +45,18 @@ def test_the_address_says_how_often_it_decides() -> None:
     brain.close()
 
 
+@pytest.mark.parametrize(("address", "ms"), [("", 60_000), ("?receive_timeout=700", 700)])
+def test_the_worlds_patience_holds_for_a_script_whose_address_names_none(
+    address: str, ms: int
+) -> None:
+    spec, scene = f"ai4u://localhost:9{address}", Scene.load("box_chase")
+    sim, _ = with_drivers(scene, [spec], is_served=True, receive_timeout=60_000)
+    brain = sim.agents[0].brain
+    assert isinstance(brain, RemoteBrain)
+    assert brain.receive_timeout == ms
+    brain.close()
+
+
 def test_with_several_agents_one_is_named() -> None:
     pair = Scene.load("tag")
     says = r"the scene has several agents \(.*\); name one, as in --brain .*=ai4u://127.0.0.1:9"

@@ -14,7 +14,7 @@ _ID = re.compile(r"[\w .:\-]+")
 
 
 def with_drivers(
-    scene: Scene, specs: Sequence[str], *, is_served: bool = False
+    scene: Scene, specs: Sequence[str], *, is_served: bool = False, receive_timeout: int = 2000
 ) -> tuple[ControlRequestor, Scene]:
     """Build a scene in which the drivers that were named drive.
 
@@ -24,6 +24,8 @@ def with_drivers(
             another agent than the first.
         is_served: True if pages and scripts reach the world. Then an AI4U script may drive, and
             with several agents each driver has to be given to one by its id.
+        receive_timeout: milliseconds for which the world waits for an AI4U script whose address
+            names no ``receive_timeout``.
 
     Returns:
         The world with its agents, and the scene as the drivers are used to observe it.
@@ -56,7 +58,7 @@ def with_drivers(
                     name=entrants[agent_id].name,
                 )
             )
-        found = entrant(who, scene.description.name)
+        found = entrant(who, scene.description.name, receive_timeout=receive_timeout)
         entrants[agent_id] = found if is_served else expect_here(found)
     for each in entrants.values():
         scene = each.fitted(scene)

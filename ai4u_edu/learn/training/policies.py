@@ -69,7 +69,7 @@ class Entrant:
     """True for a script on the other side of a connection, which needs a served world."""
 
 
-def entrant(spec: str, scene: str = "") -> Entrant:
+def entrant(spec: str, scene: str = "", *, receive_timeout: int = 2000) -> Entrant:
     """Parse the name of a driver; the one place that does.
 
     Args:
@@ -80,6 +80,8 @@ def entrant(spec: str, scene: str = "") -> Entrant:
             (``ai4u://HOST:PORT``); a controller by its name; ``random``; ``scene`` for the
             controller that the scene's file names.
         scene: the name of the scene that ``zoo`` means.
+        receive_timeout: milliseconds for which the world waits for an AI4U script whose address
+            names no ``receive_timeout``.
 
     Raises:
         AI4UError: there is nothing of that name.
@@ -95,7 +97,11 @@ def entrant(spec: str, scene: str = "") -> Entrant:
         return _network(spec)
     if spec.startswith(SCHEME):
         brain_at(spec)  # so that its mistakes are told before a world is built
-        return Entrant(spec, lambda agent: brain_at(spec, **_rhythm(agent)), is_remote=True)
+
+        def remote(agent: BasicAgent) -> Brain:
+            return brain_at(spec, receive_timeout=receive_timeout, **_rhythm(agent))
+
+        return Entrant(spec, remote, is_remote=True)
     if path.is_dir() or path.suffix == ".zip":
         return _model(path)
     file, _colon, name = spec.rpartition(":")

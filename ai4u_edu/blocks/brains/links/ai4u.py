@@ -408,7 +408,8 @@ class AI4ULink:
             lost = _(
                 "the script at {where} did not answer for {timeout:g} s: its session is over, "
                 "since AI4U's protocol can't make up for a lost packet; start the script again "
-                "(or give it a longer receive_timeout, if it was only slow)",
+                "(if it was only slow, because it learned say, start the world with a longer "
+                "--receive-timeout, in milliseconds)",
                 where=self.where,
                 timeout=self._timeout,
             )
