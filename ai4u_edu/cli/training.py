@@ -94,7 +94,7 @@ def train(
             agent=agent,
             against=against,
         )
-        say(_summary(result))
+        say(_summary(result, "" if resume else scene or "box_chase"))
         if page and not result.interrupted:
             with suppress(KeyboardInterrupt):  # as soon as it is announced
                 say(_("the trained policy drives in the page; Ctrl-C ends it"))
@@ -128,7 +128,13 @@ def _page(port: int) -> "Watch":
     return Watch(port)
 
 
-def _summary(result: "Trained") -> str:
+def _summary(result: "Trained", scene: str) -> str:
+    """Return how a training went, and the commands that follow.
+
+    Args:
+        result: of the training.
+        scene: name or file, as it was given; empty for the one in the training's folder.
+    """
     best, folder = result.best, result.run.folder
     is_small = result.run.config().trainer == "small"
     kept = result.run.best_network if is_small else result.run.best
@@ -147,7 +153,7 @@ def _summary(result: "Trained") -> str:
         steps=result.steps,
         kept=str(kept),
         result=reward,
-        evaluate=f"ai4u-edu evaluate {result.run.config().scene} --brain {folder}",
+        evaluate=" ".join(filter(None, ("ai4u-edu evaluate", scene, f"--brain {folder}"))),
         export=f"ai4u-edu export {folder} --out policy.onnx",
     )
 

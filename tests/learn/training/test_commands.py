@@ -45,6 +45,7 @@ def test_train_resume_export_evaluate(tmp_path: Path) -> None:
     assert f"ai4u-edu export {out} --out policy.onnx" in told.replace("\n", "")
     told = run("train", "--resume", "--out", str(out), "--steps", "256")
     assert "after 256 steps" in told
+    assert f"ai4u-edu evaluate --brain {out}" in told.replace("\n", "")
     assert "--brain" in run("export", str(out), "--out", str(network))
     scene = tmp_path / "short.yaml"
     text = (
@@ -99,7 +100,8 @@ def test_a_scene_with_blocks_of_ones_own_is_learned(tmp_path: Path) -> None:
     options = ("--settings", str(mine), "--out", str(out), "--algo", "ppo", "--steps", "128")
     assert "Compass" in failed("train", str(scene), *options)
     own = ("--blocks", str(blocks))
-    run("train", str(scene), *options, *own)
+    told = run("train", str(scene), *options, *own).replace("\n", "")
+    assert f"ai4u-edu evaluate {scene} --brain {out}" in told, "a file by its path, not its name"
     for path in out.rglob("*"):  # what is read again runs nothing
         assert str(blocks).encode() not in (path.read_bytes() if path.is_file() else b"")
     for command in (
