@@ -183,20 +183,26 @@ class LocalRooms:
 
     async def _watch(self) -> None:
         """End processes that nobody uses, and those that break a limit, until the loop ends."""
-        async with httpx.AsyncClient(trust_env=False, cookies=no_cookies()) as client:
+        http = httpx.AsyncClient(trust_env=False, cookies=no_cookies())
+        async with http as client, asyncio.TaskGroup() as requests:
             while True:
                 await asyncio.sleep(self._limits.check_s)
                 # side by side: one that does not answer keeps no other from its check
                 await asyncio.gather(
                     *(
-                        self._check(room, slot, slot.running, client)
+                        self._check(room, slot, slot.running, client, requests)
                         for room, slot in self._slots.items()
                         if slot.running is not None and not slot.lock.locked()
                     )
                 )
 
     async def _check(
-        self, room: str, slot: _Slot, running: _Running, client: httpx.AsyncClient
+        self,
+        room: str,
+        slot: _Slot,
+        running: _Running,
+        client: httpx.AsyncClient,
+        requests: asyncio.TaskGroup,
     ) -> None:
         idle_s = self._clock() - slot.used_at
         if slot.users == 0 and 0 < self._limits.sleep_after_s < idle_s:
@@ -211,7 +217,8 @@ class LocalRooms:
             running.process.kill()
         elif slot.users:
             url = f"http://{HOST}:{running.address.port}{path_of(room)}/healthz"
-            await running.watch.ask(client, url, running.address)
+            # beside the checks, which go on until it answers
+            requests.create_task(running.watch.ask(client, url, running.address))
 
     def _start(self, room: str, scene: str) -> _Running:
         ours, theirs = self._context.Pipe()

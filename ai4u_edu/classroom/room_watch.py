@@ -15,7 +15,6 @@ from ai4u_edu.classroom.room_host import RoomAddress
 from ai4u_edu.locale import gettext as _
 
 MB = 2**20
-HEALTH_TIMEOUT_S = 5.0
 BUSY_SHARE = 0.6
 """Share of a core above which a process gets a lower priority than the others."""
 BUSY_NICENESS, NICENESS = 10, 3
@@ -65,7 +64,7 @@ class RoomWatch:
     ) -> None:
         self._process, self._limits, self._clock = psutil.Process(pid), limits, clock
         self._queue_clock = queue_clock or time_in_queue
-        self._asked_at = -limits.ask_s
+        self._asked_at, self._is_asking = -limits.ask_s, False
         self._unanswered_since: float | None = None
         self._queued_before: dict[int, float] = {}
         self._is_busy = False
@@ -111,18 +110,26 @@ class RoomWatch:
                 self._max_file_bytes = limit
 
     async def ask(self, client: httpx.AsyncClient, url: str, address: RoomAddress) -> None:
-        """Ask the process for a sign of life, if that is due."""
+        """Ask the process for a sign of life, if that is due, and wait for it.
+
+        On a machine that has too much to do an answer comes late, and is a sign of life, too. So
+        this waits as long as the process may take, and does not ask again meanwhile.
+        """
         now = self._clock()
-        if now - self._asked_at < self._limits.ask_s:
+        if self._is_asking or now - self._asked_at < self._limits.ask_s:
             return
         self._asked_at = now
         if self._unanswered_since is None:
             self._unanswered_since = now
             self._queued_before = self._queue_clock(self._process.pid)
         headers = {"Authorization": f"Bearer {address.token}"}
-        with suppress(httpx.HTTPError):
-            await client.get(url, headers=headers, timeout=HEALTH_TIMEOUT_S)
-            self._unanswered_since = None
+        self._is_asking = True
+        try:
+            with suppress(httpx.HTTPError):
+                await client.get(url, headers=headers, timeout=self._limits.answer_timeout_s)
+                self._unanswered_since = None
+        finally:
+            self._is_asking = False
 
     def _queued_s(self) -> float:
         """Return how long (s) the thread that waited longest had no processor since the request."""

@@ -136,6 +136,35 @@ def test_an_answer_of_any_status_is_a_sign_of_life(idle_pid: int, status: int) -
     assert len(asked) == 6, "it is not asked more often"
 
 
+def test_a_late_answer_is_a_sign_of_life(idle_pid: int) -> None:
+    clock = Clock(1000.0)
+    watch = RoomWatch(idle_pid, RoomLimits(max_memory_mb=1e9), clock)
+    timeouts: list[float] = []
+
+    async def ask_twice() -> list[str]:
+        answers = asyncio.Event()
+
+        async def answer(request: httpx.Request) -> httpx.Response:
+            timeouts.append(request.extensions["timeout"]["read"])
+            await answers.wait()
+            return httpx.Response(200)
+
+        async with httpx.AsyncClient(transport=httpx.MockTransport(answer)) as client:
+            request = client, "http://room/healthz", RoomAddress("room", 1, "secret")
+            asked = asyncio.create_task(watch.ask(*request))
+            await until_async(lambda: len(timeouts) == 1)
+            clock.now += 19
+            await watch.ask(*request)
+            told = [watch.broken_limit()]
+            answers.set()
+            await asked
+            clock.now += 19
+            return [*told, watch.broken_limit()]
+
+    assert asyncio.run(ask_twice()) == ["", ""]
+    assert timeouts == [20.0]
+
+
 def _ask_in_vain(watch: RoomWatch) -> str:
     """Ask a process that does not answer; return the sentence about the limit that it breaks."""
 
