@@ -1,6 +1,7 @@
 """The kinds of checks of a mission: each follows what happens in a world until it is satisfied."""
 
 import math
+import re
 from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, Self
@@ -196,17 +197,19 @@ class IsPaid(Check):
 
     type: Literal["is_paid"] = "is_paid"
     reward: Annotated[str, StringConstraints(min_length=1, max_length=80)]
-    """Name of the term: with any term, a small reward on the way would do."""
+    """Name of the term, since with any term a small reward on the way would do. ``touch_2`` and so
+    on, as Build names further ones of a kind, count as ``touch``."""
     times: Times = 1
 
     def follow(self) -> Follow:
         """Count the decisions that pay more than 0."""
         count, episode = 0, None
+        names = re.compile(rf"{re.escape(self.reward)}(_\d+)?")
         while count < self.times:
             now: Decision = yield _counted(count, self.times)
             if now.episode != episode:
                 count, episode = 0, now.episode
-            count += now.terms.get(self.reward, 0.0) > 0
+            count += any(paid > 0 for name, paid in now.terms.items() if names.fullmatch(name))
 
     def fit(self, agent: BasicAgent) -> None:
         """Check that the agent is paid such a reward."""

@@ -178,6 +178,13 @@ def test_a_reward_that_has_to_be_paid_has_a_name() -> None:
     assert not see(following("is_paid", reward="touch"), small)
 
 
+def test_a_further_reward_of_the_kind_counts_as_build_names_it() -> None:
+    second = replace(STILL, terms={"touch": 0.0, "touch_2": 1.0})
+    assert see(following("is_paid", reward="touch"), second)
+    other = replace(STILL, terms={"touch_wall": 1.0, "touch_2b": 1.0})
+    assert not see(following("is_paid", reward="touch"), other)
+
+
 def test_ranges_have_to_hold_together_and_in_a_row() -> None:
     ranges = [{"what": "eyes[1]", "above": 0.5}, {"what": "distance ahead", "below": 3}]
     check = following("holds", ranges=ranges, decisions=3)
