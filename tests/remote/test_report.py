@@ -9,6 +9,7 @@ import pytest
 
 from ai4u_edu import RemoteBrain
 from ai4u_edu.base.log_limit import LOG_INTERVAL_S
+from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.page.server.scripts import ScriptReport
 from ai4u_edu.page.server.scripts.report import EVENTS_PER_S, MAX_WAITING_LINES
 from ai4u_edu.remote import Robot
@@ -183,6 +184,28 @@ def test_an_ai4u_script_joins_acts_in_vain_and_leaves(told: list[str]) -> None:
                 assert told[2].startswith("the AI4U script of agent '0' has left: ")
         finally:
             runner.stop(LIMIT_S)
+
+
+def test_the_end_of_the_world_is_nothing_that_an_ai4u_script_did(
+    told: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looks: list[RemoteStatus] = []
+    status = RemoteBrain.status
+
+    def noted_status(brain: RemoteBrain) -> RemoteStatus:
+        looks.append(status(brain))
+        return looks[-1]
+
+    monkeypatch.setattr(RemoteBrain, "status", noted_status)
+    with udp_script() as script:
+        runner = Runner(small_sim(brains=[RemoteBrain(port=script.port)]))
+        runner.start()
+        with ScriptReport(runner, told.append):
+            begin(script)
+            until(lambda: told)
+            runner.stop(LIMIT_S)
+            until(lambda: [look.state for look in looks[-2:]] == ["waiting"] * 2)
+        assert told == ["an AI4U script drives agent '0'"]
 
 
 @pytest.mark.slow

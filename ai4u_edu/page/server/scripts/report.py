@@ -146,7 +146,7 @@ class ScriptReport:
             self.note_event(_("{script} is back", script=script))
         elif is_now == "lost" != was:
             self.note_event(_("{script} is lost: {reason}", script=script, reason=now.reason))
-        elif is_now == "waiting" != was:
+        elif is_now == "waiting" != was and now.reason:  # without one the world itself has ended
             self.note_event(_("{script} has left: {reason}", script=script, reason=now.reason))
         if now.warnings > (before.warnings if before else 0):
             self.note_mistake(
