@@ -1,6 +1,7 @@
 """Each mission has a solution that passes; wrong ways do not, and chance hardly ever does."""
 
 import contextlib
+import math
 import random
 import re
 import zlib
@@ -8,6 +9,7 @@ import zlib
 import numpy as np
 import pytest
 
+from ai4u_edu.agent import BasicAgent
 from ai4u_edu.lessons.answers import answers_to
 from ai4u_edu.lessons.built import BUILT, PAGE_HINTS, judge_built
 from ai4u_edu.lessons.calls import JUDGES, starting_text
@@ -210,6 +212,23 @@ def test_hints_on_a_robot_are_in_the_words_of_the_page(name: str, hint: str) -> 
 @pytest.mark.parametrize("exercise", PAGE_HINTS)
 def test_hints_of_the_page_are_for_mistakes_that_a_judge_finds(exercise: str) -> None:
     assert set(PAGE_HINTS[exercise]) <= set(find(exercise).hints)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_taps_of_a_key_are_fine_enough_to_face_a_thing(seed: int) -> None:
+    """One decision of a held key turns by 7 degrees."""
+    do = Doing("sense-5", seed)
+    for aside in (0.0, math.pi / 2):
+        index = do.run.index
+
+        def tap(agent: BasicAgent, aside: float = aside) -> Action:
+            ahead, left = agent.body.to_local(*agent.view["block"].position)
+            angle = math.degrees(math.remainder(math.atan2(left, ahead) - aside, 2 * math.pi))
+            turn = 0.0 if abs(angle) < 3.6 else math.copysign(0.6, -angle)
+            return move(0, turn)(agent)
+
+        do.drive(tap, 200)
+        assert do.run.index == index + 1
 
 
 def test_a_way_that_has_to_be_chosen_is_waited_for() -> None:
