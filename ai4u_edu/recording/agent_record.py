@@ -87,6 +87,12 @@ class AgentRecord:
             repeat_action=bool(flags & REPEAT),
         )
 
+    def reached(self, goal: str) -> bool | None:
+        """Return True if a reward term paid above 0; None if the agent has no such term."""
+        if not any(name == goal for form in self.terms.forms for name, _ in form):
+            return None
+        return any(decision.reward_terms.get(goal, 0.0) > 0 for decision in self)
+
     def carried_into(self, step: int) -> dict[str, float]:
         """Return the reward terms that were paid before a decision was taken."""
         if not len(self.carried):

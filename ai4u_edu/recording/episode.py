@@ -127,14 +127,7 @@ class Episode:
     def success(self) -> bool | None:
         """True if an agent reached the scene's goal; None for a scene without a goal."""
         goal = self.scene.success
-        if goal is None:
-            return None
-        return any(
-            decision.reward_terms.get(goal, 0.0) > 0
-            for record in self.agents
-            if any(name == goal for form in record.terms.forms for name, _ in form)
-            for decision in record
-        )
+        return None if goal is None else any(record.reached(goal) for record in self.agents)
 
     @cached_property
     def places(self) -> tuple[npt.NDArray[np.int64], ...]:

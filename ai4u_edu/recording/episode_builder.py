@@ -201,6 +201,11 @@ class EpisodeBuilder:
         column.rewards[-1] = ledger.total
         column.percepts[-1] = percept_checksum(agent.percept)
 
+    @property
+    def has_open_decision(self) -> bool:
+        """True while a decision has begun and not ended; False for an episode that was cut."""
+        return not self.cut and any(column.open_step >= 0 for column in self._columns)
+
     def episode(self) -> Episode:
         """Return the episode so far."""
         order, counts = list(self._order), [len(column.begin) for column in self._columns]

@@ -231,7 +231,9 @@ class Recorder:
         if self._builder is None:
             return
         self._builder.end_decision(agent)
-        if agent.done and all(each.done for each in self.sim.agents):
+        # agents that end in the same tick get their last percepts one after another
+        is_over = agent.done and all(each.done for each in self.sim.agents)
+        if is_over and not self._builder.has_open_decision:
             episode = self._builder.episode()
             self._keep(episode)
             self._tell(episode, self.done_listeners)

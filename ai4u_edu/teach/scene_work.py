@@ -114,7 +114,7 @@ def _shown(
         if record is not None:
             yield m.TaughtDrive(
                 number=drive.number,
-                result=drive.episode.success,
+                result=None if (goal := scene.success) is None else record.reached(goal),
                 seconds=round(drive.episode.seconds, 1),
                 decisions=persons_decisions(record),
                 share=round(persons_decisions(record) / len(record), 3),

@@ -74,6 +74,19 @@ def test_a_drive_that_is_over_is_kept_before_the_next_one_begins() -> None:
     assert [each.seed for each in recorder.episodes] == [1, 2]
 
 
+def test_a_game_that_is_over_is_told_once_with_the_end_of_each_player() -> None:
+    sim = Scene.load("sumo").build()
+    recorder = Recorder(sim)
+    games: list[Episode] = []
+    recorder.done_listeners.append(games.append)
+    sim.reset(0)
+    while not all(agent.done for agent in sim.agents):
+        sim.agents[0].keyboard.hold(["KeyS"])
+        sim.step()
+    (game,) = games
+    assert [record[len(record) - 1].terminated for record in game.agents] == [True, True]
+
+
 def test_it_keeps_the_last_ones() -> None:
     sim, _ = chase()
     told: list[Episode] = []

@@ -196,6 +196,21 @@ def test_a_drive_is_kept_as_soon_as_it_ends(tmp_path: Path) -> None:
         assert (tmp_path / "drives" / "box_chase-1.episode").is_file()
 
 
+def test_a_lost_game_is_one_drive_that_did_not_reach_the_goal(tmp_path: Path) -> None:
+    with teaching_room(tmp_path, "sumo") as room, room.page() as page:
+        page.part("teach", drives=[])
+        runner = room.runner
+        runner.reset(1).result()
+        blue = runner.sim.agents[0]
+        blue.keyboard.clock = lambda: 0.0  # keys stay held until others are
+        blue.keyboard.hold(["KeyS"])
+        while not blue.done:
+            runner.step_decision("blue").result()
+        part = page.part("teach", lambda part: part["drives"])
+        assert [drive["result"] for drive in part["drives"]] == [False]
+        assert len(list((tmp_path / "drives").iterdir())) == 1
+
+
 def test_a_drive_that_can_not_be_kept_is_told_of(tmp_path: Path) -> None:
     (tmp_path / "drives").write_text("in the way")
     with teaching_room(tmp_path) as room, room.page() as page:
