@@ -152,6 +152,8 @@ class MissionRun:
             return
         if self.step.by == "program" and self._is_old_episode():
             return  # the program of the step before still runs, while the person changes it
+        if isinstance(event, Decision) and event.outcome:
+            self.hint = ""  # it was about an episode before this one
         for place, hint in enumerate(self.step.hints):
             self._hints[place].see(event)
             if self._hints[place].is_done:

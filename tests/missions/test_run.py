@@ -115,6 +115,15 @@ def test_a_hint_is_shown_until_the_step_is_done(run: MissionRun) -> None:
     assert (run.is_step_done, run.hint) == (True, "")
 
 
+def test_a_hint_about_one_episode_goes_when_another_ends_without_it(run: MissionRun) -> None:
+    run.see(replace(STILL, step=4, outcome="fell"))
+    run.see(replace(STILL, step=0, episode=2))
+    assert run.hint == "It fell."
+    version = run.version
+    run.see(replace(STILL, step=9, episode=2, outcome="goal"))
+    assert (run.hint, run.version > version) == ("", True)
+
+
 def test_a_hint_counts_once_in_ten_seconds(run: MissionRun) -> None:
     fell = replace(STILL, step=4, outcome="fell")
     for _ in range(5):
