@@ -476,7 +476,8 @@ def _remarks(count: int, network: ActorCritic, readings: Array, done: Array) -> 
     elif np.mean(np.abs(done).max(axis=1) < REST) >= STILL_SHARE:
         remarks.append(STOOD_STILL)
     if (
-        _contradiction(network.scaled(readings), _kinds(network, done, _spans(done)))
+        count > 1  # of a single one, none can be left out
+        and _contradiction(network.scaled(readings), _kinds(network, done, _spans(done)))
         > CONTRADICTION_SHARE
     ):
         remarks.append(CONTRADICTION)

@@ -137,6 +137,12 @@ def test_contradicting_drives_get_a_sentence() -> None:
     shown = drives(3)
     shown += [DriveData(drive.observations, drive.actions * f32([-1, 1])) for drive in shown]
     assert learn(shown).remarks == (CONTRADICTION,)
+    seen, actions = (
+        np.concatenate([getattr(drive, name) for drive in shown])
+        for name in ("observations", "actions")
+    )
+    one = [DriveData(seen, actions)]
+    assert learn(one).remarks == (ONE_DRIVE,), "of one drive, none can be left out"
 
 
 def test_a_reading_that_never_changed_is_left_out() -> None:
