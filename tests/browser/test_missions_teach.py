@@ -131,6 +131,7 @@ def test_a_network_learns_by_rewards(chromium: Browser, tmp_path: Path) -> None:
     with person(chromium, tmp_path, "teach-2") as ada:
         ada.press("Teach")
         ada.go_on()
+        ada.page.get_by_label("Begin with").select_option("A new network")
         ada.page.get_by_label("Length").select_option("Medium")
         ada.press("Practise")
         ada.go_on()
@@ -195,7 +196,8 @@ def test_a_network_plays_against_itself(chromium: Browser, tmp_path: Path) -> No
         ada.go_on()
         ada.card.get_by_role("button", name="Next", exact=True).click()  # to win takes a person
         ada.press("Teach")
+        ada.card.get_by_role("button", name="Next", exact=True).click()  # nothing to learn from
         ada.page.get_by_label("Against").select_option("Itself")
         ada.press("Practise")
         ada.go_on()
-        expect(ada.card).to_contain_text("Step 4 of 4")
+        expect(ada.card).to_contain_text("Step 5 of 5")

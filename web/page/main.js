@@ -9,6 +9,7 @@ import "../panel/shortcuts.js"; // the first one: its listener comes before the 
 import { roomOfPage } from "../shared/room.js";
 import { Banners } from "./banners.js";
 import { ClassBar } from "../classroom/student/bar.js";
+import { noteRole } from "../classroom/student/hand_in_dialog.js";
 import { noteHandout } from "../classroom/student/handout.js";
 import { showLeft } from "../classroom/student/overlay.js";
 import { element, setAttributes } from "../shared/dom.js";
@@ -162,6 +163,7 @@ socket.onmessage = (/** @type {HelloEvent | SeatEvent | StateEvent | ClassEvent 
       classBar.show(message);
       effects.allowSound(message.switches.sound);
       noteHandout(message.program);
+      noteRole(message.role);
       if (message.role === "student") noteAssigned(message.mission);
       break;
     case "error":

@@ -4,6 +4,7 @@
  * @import { TaughtNetwork, TeachPart } from "../generated/messages.js"
  * @import { Panel } from "../panel/panel.js"
  */
+import { handIns, showHandIn } from "../classroom/student/hand_in_dialog.js";
 import { ask } from "../shared/dialog.js";
 import { button, element, keyed, setText, tableHead } from "../shared/dom.js";
 import { field, showForm } from "../shared/form_dialog.js";
@@ -20,6 +21,8 @@ export class Networks {
   #cards = /** @type {Map<number, Card>} */ (new Map());
   /** Details below a card's buttons, by the network's number. */
   #details = /** @type {Map<number, Details>} */ (new Map());
+  /** Buttons that hand in, by the network's number: shown in a class alone. */
+  #handIns = /** @type {Map<number, HTMLButtonElement>} */ (new Map());
   /** Number of the network whose card is open. */
   #open = /** @type {number | null} */ (null);
   /** @type {TeachPart | null} */
@@ -33,6 +36,7 @@ export class Networks {
   /** @param {Panel} panel */
   constructor(panel) {
     this.#panel = panel;
+    handIns.addEventListener("change", () => this.#part && this.update(this.#part));
     this.#file.addEventListener("change", () => {
       const [file] = this.#file.files;
       this.#file.value = ""; // the same file can be chosen again
@@ -63,6 +67,7 @@ export class Networks {
         if (this.#part) this.update(this.#part);
       },
     });
+    const handIn = button(t("Hand in"), () => void this.#handIn(number), { icon: "upload", title: t("Hand in this network for a tournament of the class") });
     card.body.append(
       element(
         "div",
@@ -71,12 +76,14 @@ export class Networks {
         button(t("Why?"), () => void this.#explain(number), { icon: "rays", title: t("Let it drive, and see in Drive why it acts so") }),
         button(t("Rename"), () => void this.#rename(number), { icon: "text" }),
         button(t("Download"), () => void this.#download(number), { icon: "download" }),
+        handIn,
         button(t("Compare"), () => void this.#compare(number), { icon: "race" }),
         button(t("Delete"), () => void this.#delete(number), { icon: "trash", kind: "danger" }),
       ),
     );
     const details = new Details(this.#panel, number);
     card.body.append(details.element);
+    this.#handIns.set(number, handIn);
     this.#details.set(number, details);
     this.#cards.set(number, card);
     return card;
@@ -86,6 +93,7 @@ export class Networks {
   #draw(network) {
     const { number, title, how, is_driving: isDriving } = network;
     this.#details.get(number)?.update(network);
+    this.#handIns.get(number).hidden = !handIns.isOpen();
     const mark = isDriving ? t("drives") : "";
     this.#cards.get(number)?.update({ icon: "network", title, reads: how, mark, isOpen: this.#open === number });
   }
@@ -144,14 +152,31 @@ export class Networks {
     return this.#part.networks.find((network) => network.number === number);
   }
 
+  /** Hand a network in to the class, as its file would be. @param {number} number */
+  async #handIn(number) {
+    const file = await this.#read(number);
+    const { title } = this.#network(number);
+    if (file) await showHandIn({ title, scene: this.#panel.part("scene").scene, agent: this.#part.agent, file });
+  }
+
   /** @param {number} number */
   async #download(number) {
-    const { ok, name, data } = await this.#panel.send("teach_download", { network: number }, { quiet: true });
-    if (!ok) return;
-    const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-    const url = URL.createObjectURL(new Blob([bytes], { type: "application/octet-stream" }));
-    element("a", { href: url, download: name }).click();
+    const file = await this.#read(number);
+    if (!file) return;
+    const url = URL.createObjectURL(file);
+    element("a", { href: url, download: file.name }).click();
     URL.revokeObjectURL(url);
+  }
+
+  /**
+   * Return a network's file; null if it can't be had.
+   * @param {number} number
+   */
+  async #read(number) {
+    const { ok, name, data } = await this.#panel.send("teach_download", { network: number }, { quiet: true });
+    if (!ok) return null;
+    const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
+    return new File([bytes], name, { type: "application/octet-stream" });
   }
 }
 

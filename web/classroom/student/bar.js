@@ -208,7 +208,7 @@ function raceText(race, toRace) {
 function studentActions() {
   const handIn = element("button", { type: "button", className: "ai4u-plain", title: t("Hand in a network for a tournament") });
   handIn.append(icon("upload", 16), element("span", { textContent: t("Hand in") }));
-  handIn.addEventListener("click", showHandIn);
+  handIn.addEventListener("click", () => void showHandIn());
   const work = element("a", { className: "ai4u-plain", href: "../../api/my-work", download: "", title: t("Download my work") });
   work.append(icon("download", 16), element("span", { textContent: t("My work") }));
   const move = element("button", { type: "button", className: "ai4u-plain", title: t("Go on at another device") });

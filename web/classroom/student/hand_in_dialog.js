@@ -1,6 +1,6 @@
 /** The dialog with which a student hands in a network for a tournament of the class. */
 
-/** @import { HandedIn, Network } from "../../types/class.js" */
+/** @import { ClassEvent, HandedIn, Network } from "../../types/class.js" */
 
 import { element, keyed, setText } from "../../shared/dom.js";
 import { field, select, showForm } from "../../shared/form_dialog.js";
@@ -11,18 +11,41 @@ const ADDRESS = "../../api/network";
 /** Interval at which the class is asked for the verdict on a network (ms). */
 const POLL_MS = 2000;
 const UNREACHABLE = t("The class can't be reached. Try again in a moment.");
+const NO_TOURNAMENT = t("There are no tournaments in this scene. Open one from the list of scenes, and let a robot learn there.");
 const ALL_PARTS = t("All of my robots");
 
-export async function showHandIn() {
+let canHandIn = false;
+
+/** Says whether this page's networks can be handed in; tells of a change with the event "change". */
+export const handIns = Object.assign(new EventTarget(), { isOpen: () => canHandIn });
+
+/**
+ * Note who looks at this page, as an event of the class has it.
+ * @param {ClassEvent["role"]} role
+ */
+export function noteRole(role) {
+  // elsewhere than on the page of a class's own machine, there is no such address
+  const can = role === "student" && location.pathname.includes("/r/");
+  if (canHandIn === can) return;
+  canHandIn = can;
+  handIns.dispatchEvent(new Event("change"));
+}
+
+/**
+ * Let a student hand in a file, or a network that learned in this page.
+ * @param {{title: string, scene: string, agent: string, file: File} | null} [own] the network, the scene and the agent in which it learned
+ */
+export async function showHandIn(own = null) {
   /** @type {HandedIn} */
   let facts;
   try {
     facts = await ask();
+    if (own && !facts.scenes.some(({ name }) => name === own.scene)) throw new Error(NO_TOURNAMENT);
   } catch (error) {
     await tell(t("Nothing can be handed in"), error.message);
     return;
   }
-  const first = facts.scene || facts.scenes.find(({ name }) => name === "sumo")?.name;
+  const first = own?.scene || facts.scene || facts.scenes.find(({ name }) => name === "sumo")?.name;
   const scene = select(facts.scenes.map(({ name, title }) => [name, title]), first);
   const part = element("select");
   const partField = field(t("It drives"), part, t("The scene’s own player drives robots for which you have no network."));
@@ -34,6 +57,7 @@ export async function showHandIn() {
     const parts = facts.scenes.find(({ name }) => name === scene.value)?.parts ?? [];
     part.replaceChildren(...["", ...parts].map((value) => element("option", { value, textContent: value || ALL_PARTS })));
     partField.hidden = parts.length === 0;
+    part.value = parts.find((name) => own?.agent === name || own?.agent.endsWith(`_${name}`)) ?? "";
   }
 
   /** @param {HandedIn} answer */
@@ -58,9 +82,13 @@ export async function showHandIn() {
   showParts();
   const text = t("For a tournament: your teacher lets the networks of the class play each other. The latest one counts.");
   const size = Math.round(facts.max_bytes / 2 ** 20);
-  const content = [field(t("Scene"), scene), partField, field(t("Network (.onnx)"), file, t("At most {size} MB.", { size })), list];
-  const shown = showForm({ title: t("Hand in a network"), text, content, yes: t("Hand in"), no: t("Close") }, async () => {
-    const [chosen] = file.files;
+  const sceneField = field(t("Scene"), scene);
+  const fileField = field(t("Network (.onnx)"), file, t("At most {size} MB.", { size }));
+  sceneField.hidden = fileField.hidden = own !== null;
+  const content = [sceneField, partField, fileField, list];
+  const title = own ? t("Hand in {title}", { title: own.title }) : t("Hand in a network");
+  const shown = showForm({ title, text, content, yes: t("Hand in"), no: t("Close") }, async () => {
+    const chosen = own?.file ?? file.files[0];
     if (!chosen) throw new Error(t("Choose the .onnx file of your network first."));
     if (chosen.size > facts.max_bytes) throw new Error(t("This file is too large: a network may have at most {size} MB.", { size }));
     show(await ask({ scene: scene.value, part: part.value, file: chosen.name }, chosen));
