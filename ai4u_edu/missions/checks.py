@@ -277,6 +277,8 @@ class Holds(Check):
                 latest.append(has_all)
 
     def _words(self, count: int, decisions: int) -> str:
+        if decisions == 1:
+            return ""
         numbers = {"count": count, "decisions": decisions}
         if not self.word:
             return _("{count} of {decisions} decisions", **numbers)

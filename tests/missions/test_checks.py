@@ -206,6 +206,12 @@ def test_starts_are_told_apart_by_their_seeds() -> None:
     assert see(following("starts", place="same"), STILL, again)
 
 
+def test_one_decision_is_not_counted_in_words() -> None:
+    ranges = [{"what": "level", "above": 0.7}]
+    assert following("holds", ranges=ranges, decisions=1).words == ""
+    assert following("holds", ranges=ranges, decisions=2).words == "0 of 2 decisions"
+
+
 def test_pages_and_answers_are_seen() -> None:
     check = following("opens", tab="code")
     assert not see(check, STILL, SeenPage("drive"))
