@@ -40,6 +40,14 @@ def test_values_stay_and_texts_among_them_are_translated() -> None:
     assert "a box" not in translated
 
 
+def test_thousands_stand_apart_as_the_language_has_it() -> None:
+    text = gettext(
+        "Learned from {decisions:,} of {total:,} decisions so far.", decisions=512, total=8192
+    )
+    assert text == "Learned from 512 of 8,192 decisions so far."
+    assert PORTUGUESE.translate(text) == "Até agora aprendeu com 512 de 8.192 decisões."
+
+
 def test_braces_without_values_are_characters() -> None:
     text = gettext('write {"move": [1, 0]}')
     assert text == 'write {"move": [1, 0]}'
