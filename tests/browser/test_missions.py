@@ -246,9 +246,17 @@ def test_the_card_fits_and_covers_no_key(
         assert is_beside or box["y"] + box["height"] <= keys["y"]
 
 
-@pytest.mark.parametrize("is_folded", [True, False])
 @pytest.mark.parametrize(
-    ("width", "height"), [(1024, 768), (900, 700), (820, 1180), (390, 844), (667, 375)]
+    ("width", "height", "is_folded"),
+    [
+        (1024, 768, True),
+        (900, 700, True),
+        (667, 375, True),
+        (820, 1180, True),
+        (820, 1180, False),
+        (390, 844, True),
+        (390, 844, False),
+    ],
 )
 def test_a_banner_lies_beside_the_card(
     chromium: Browser, room: Room, width: int, height: int, is_folded: bool
