@@ -46,6 +46,7 @@ from ai4u_edu.classroom.tournament.networks import TOO_LARGE, check_network
 from ai4u_edu.classroom.work_zip import seat_zip, zip_response
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.locale import library_text
+from ai4u_edu.page.messages import to_json
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.limits.rate_limit import RateLimits
 from ai4u_edu.page.server.reader_language import TextResponse
@@ -335,7 +336,7 @@ class WorkRoutes:
             "networks": [network_facts(row) for row in self._networks.of_seat(seat)],
             "max_bytes": MAX_NETWORK_BYTES,
         }
-        return JSONResponse(facts, headers=NO_STORE)
+        return Response(to_json(facts), headers=NO_STORE, media_type="application/json")
 
     async def _take_network(self, seat: int, request: Request) -> None:
         kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
