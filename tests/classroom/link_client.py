@@ -96,8 +96,8 @@ def wait_for_verdicts(served: ServedClass, student: Student) -> None:
 class TeacherSocket:
     """The socket of the teacher's page, or of the projector page."""
 
-    def __init__(self, served: ServedClass, page: str = "teacher") -> None:
-        headers = {"Authorization": f"Bearer {served.token}"}
+    def __init__(self, served: ServedClass, page: str = "teacher", language: str = "en") -> None:
+        headers = {"Authorization": f"Bearer {served.token}", "Accept-Language": language}
         self.socket = open_socket(f"{served.url}{page}/socket", additional_headers=headers)
         self._waiting: list[dict[str, Any]] = []
 

@@ -181,6 +181,9 @@ def test_a_tournament_goes_on_after_the_class_was_killed(tmp_path: Path, good: b
         assert served.command("start tournament", seeds=2, own_player=True).status_code == 200
         results = tournament(served, is_over)["results"]
         assert (results["games"], len(results["standings"])) == (12, 3)
+        with TeacherSocket(served, language="pt-BR") as wall:
+            found = wall.next("class", lambda each: each["tournament"])["tournament"]["results"]
+        assert "O piloto da cena" in {each["name"] for each in found["standings"]}
         games_can_be_watched(served, results["best"][0]["number"])
     with served_class(folder) as served:
         assert tournament(served, is_over)["results"] == results

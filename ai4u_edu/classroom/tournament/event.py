@@ -5,6 +5,7 @@ from typing import Any
 
 from ai4u_edu.classroom.store import SeatRow
 from ai4u_edu.classroom.tournament.network_check import missing_extras
+from ai4u_edu.classroom.tournament.network_scene import OWN_PLAYER
 from ai4u_edu.classroom.tournament.networks import NetworkRow
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.locale import library_text, unpacked
@@ -72,8 +73,9 @@ def _people(entries: Mapping[str, int], seats: Sequence[SeatRow]) -> dict[str, E
     found = {}
     for name, number in entries.items():
         seat = known.get(number)
+        shown = OWN_PLAYER if name == OWN_PLAYER else name
         found[name] = {
-            "name": name if seat is None else seat.name,
+            "name": shown if seat is None else seat.name,
             "colour": NEUTRAL if seat is None else seat.colour,
             "seat": number,
         }

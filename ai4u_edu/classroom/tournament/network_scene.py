@@ -9,9 +9,10 @@ from ai4u_edu.blocks.brains.network import find_network
 from ai4u_edu.games.tournament.drivers import scripted_agents
 from ai4u_edu.games.tournament.entry import Driver, Entry, file_driver
 from ai4u_edu.games.tournament.sides import Sides, sides_of
+from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes import Scene
 
-OWN_PLAYER = "The scene's player"
+OWN_PLAYER = _("The scene's player")
 """Name of the entry that the scene itself brings along."""
 ALL = ""
 """Part that means all agents of a side."""
