@@ -316,7 +316,7 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     slider.press("End")
     expect(tab.page.get_by_text("They agree in all 80 steps")).to_be_visible()
     assert tab.sent()[-1]["second"] == "network:checkpoint-2.onnx"
-    expect(tab.page.get_by_text("2000 decisions")).to_be_visible()
+    expect(tab.page.get_by_text("2,000 decisions")).to_be_visible()
     assert tab.unnamed_controls() == []
     tab.give({**PART, "playing": {**PLAYING, "number": 4}})
     expect(tab.page.get_by_text("They agree in all 80 steps")).to_be_hidden()

@@ -98,6 +98,8 @@ def test_networks_are_handed_in_checked_played_exported_and_forgotten(
         assert (answer.status_code, "no tournament" in answer.text) == (400, True)
         assert served.command("tournament", scene="sumo").status_code == 200
         assert ada.client.get("api/network").json()["scene"] == "sumo"
+        told = ada.client.get("api/network", headers={"Accept-Language": "pt-BR"}).json()
+        assert "Sumô" in {each["title"] for each in told["scenes"]}
         assert served.command("start tournament", seeds=1).status_code == 200
         answer = served.command("close tournament")
         assert (answer.status_code, "cancel it first" in answer.text) == (400, True)
