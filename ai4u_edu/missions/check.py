@@ -32,7 +32,7 @@ class Check(Description):
 
     def follow(self) -> Follow:
         """Follow events until the check is satisfied."""
-        raise NotImplementedError
+        raise NotImplementedError  # each check has its own
 
     def quantities(self) -> Sequence[str]:
         """Return the quantities that it reads, to be looked for in a scene."""

@@ -45,6 +45,14 @@ def school() -> Iterator[WallServer]:
         yield school
 
 
+def opened(chromium: Browser, server: Played, width: int, height: int) -> Page:
+    """Return the page of a world, as a Portuguese browser shows it."""
+    page = new_page(chromium, width, height, reduced_motion="reduce", **BROWSER)
+    CANVAS.serve(page, server.url)
+    page.goto(server.url)
+    return page
+
+
 def check(page: Page) -> None:
     assert cut_texts(page) == []
     assert english_texts(page, LANGUAGE) == set()
@@ -54,9 +62,7 @@ def check(page: Page) -> None:
 def test_all_tabs(
     chromium: Browser, server: Played, width: int, height: int, subtests: pytest.Subtests
 ) -> None:
-    page = new_page(chromium, width, height, reduced_motion="reduce", **BROWSER)
-    CANVAS.serve(page, server.url)
-    page.goto(server.url)
+    page = opened(chromium, server, width, height)
     page.locator(".ai4u-panel [role=tab][aria-selected=true]").wait_for(state="attached")
     opener = page.get_by_role("button", name="Abrir o painel", exact=True)
     if opener.count():
@@ -93,9 +99,7 @@ def longest_steps(count: int) -> list[tuple[str, int]]:
 def test_mission_card(
     chromium: Browser, server: Played, width: int, height: int, subtests: pytest.Subtests
 ) -> None:
-    page = new_page(chromium, width, height, reduced_motion="reduce", **BROWSER)
-    CANVAS.serve(page, server.url)
-    page.goto(server.url)
+    page = opened(chromium, server, width, height)
     card = page.get_by_role("region", name="Missão", exact=True)
     card.wait_for()
     for mission, step in longest_steps(3):

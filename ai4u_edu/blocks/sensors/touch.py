@@ -61,7 +61,7 @@ class EventSensor(Sensor):
         """None before the first look at an area."""
         self._since = 0
         self._has_begun = self._has_ended = False
-        """Whether a touch or a stay has begun, and ended, since the last reading."""
+        """True if a touch or a stay has begun, and has ended, since the last reading."""
 
     def space(self) -> Box:
         """Return the range 0..1."""
