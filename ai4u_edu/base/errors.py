@@ -77,6 +77,9 @@ class SeedError(ParameterError, ValueError):
 class BlockError(SetupError):
     """A block does not fit its agent or its world."""
 
+    problem: str = ""
+    """The message without the block's name; empty if it doesn't begin with one."""
+
 
 class SceneError(SetupError):
     """A scene file is wrong."""

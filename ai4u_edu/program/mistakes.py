@@ -155,6 +155,12 @@ class ProgramError(Exception):
             return str(self.text)
         return str(_("line {line}: {text}", line=self.line, text=self.text))
 
+    def in_file(self, file: str) -> str:
+        """Return the sentence behind the name of the program's file, and the line."""
+        if not self.line:
+            return _("{file}: {text}", file=file, text=self.text)
+        return _("{file}, line {line}: {text}", file=file, line=self.line, text=self.text)
+
 
 def syntax_mistake(error: SyntaxError) -> ProgramError:
     r"""Return the mistake that keeps Python from reading a program.

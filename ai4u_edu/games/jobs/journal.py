@@ -8,7 +8,7 @@ from typing import Annotated, Any, BinaryIO, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.games.jobs.job import Job, JobOutcome
 from ai4u_edu.locale import gettext as _
@@ -101,7 +101,7 @@ class Journal:
                         path=str(self.path),
                         number=number,
                         line=repr(line[:80]),
-                        problem=str(error),
+                        problem=text_of(error),
                     )
                 ) from error
             if not kept["error"]:

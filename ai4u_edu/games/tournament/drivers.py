@@ -374,7 +374,7 @@ class _Child:
         try:
             answer = json.loads(line)
             if "error" in answer:
-                raise BlockError(str(answer["error"]))
+                raise BlockError(unpacked(str(answer["error"])))
             return answer["answer"]
         except (ValueError, TypeError, KeyError, RecursionError):
             raise BlockError(_("expected an answer of the program, got other data")) from None

@@ -1,7 +1,6 @@
 """One game: a job's function."""
 
 import base64
-import re
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
@@ -12,15 +11,15 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from ai4u_edu.agent import ControlRequestor
 from ai4u_edu.agent.block_errors import message_of
-from ai4u_edu.base.errors import AI4UError, text_of
+from ai4u_edu.base.errors import AI4UError, BlockError, text_of
 from ai4u_edu.blocks import Answer, Brain, Command, Controller, Percept
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.block import Block
 from ai4u_edu.games.tournament.drivers import driver_for, make
 from ai4u_edu.games.tournament.limits import CpuMeter, OverTimeError, memory_limit
 from ai4u_edu.games.tournament.sides import Sides, sides_of
-from ai4u_edu.locale import Text, packed, unpacked
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import packed, unpacked
 from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.episode import encode
 from ai4u_edu.scenes import Scene
@@ -240,13 +239,13 @@ class MatchBrain(Brain):
 
 def _reason_of(error: Exception) -> str:
     """Return why an entry failed, as one sentence."""
-    is_ours = isinstance(error, AI4UError | OverTimeError)
-    whole = text_of(error) if is_ours else f"{type(error).__name__}: {error}"
-    name = r"NeuralNetController '[^']*'"  # a path in a folder that is gone
-    if isinstance(whole, Text) and re.fullmatch(name, str(whole.values.get("text0", ""))):
-        inner = whole.values["text1"]
-        whole = inner if isinstance(inner, str) else str(inner)
-    text = re.sub(f"{name}: ", "", " ".join(whole.split()))
+    if isinstance(error, BlockError) and error.problem:
+        whole = error.problem  # without a network's path, in a folder that is gone
+    elif isinstance(error, AI4UError | OverTimeError):
+        whole = text_of(error)
+    else:
+        whole = f"{type(error).__name__}: {error}"
+    text = " ".join(whole.split())
     if text == whole and len(text) <= MAX_REASON_CHARS:
         return whole  # as it is, it can be translated
     return text if len(text) <= MAX_REASON_CHARS else text[: MAX_REASON_CHARS - 1] + "…"

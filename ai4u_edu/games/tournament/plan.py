@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.sides import Sides, sides_of
 from ai4u_edu.locale import gettext as _
@@ -96,7 +97,7 @@ class TournamentPlan(BaseModel):
                 _(
                     "{path}: not as a tournament writes it: {problem}",
                     path=str(path),
-                    problem=str(error),
+                    problem=format_problems(explain(error.errors(), cls)),
                 )
             ) from None
 

@@ -24,8 +24,10 @@ from typing import Any, NoReturn
 import psutil
 
 from ai4u_edu.base.process_family import adopt_orphans, end_with_parent, kill_descendants
+from ai4u_edu.locale import Text, packed
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.program import Program, ProgramError
+from ai4u_edu.program.texts import make_texts_with
 
 MEMORY_BYTES = 2**30
 CLONE_NEWNS, CLONE_NEWUSER, CLONE_NEWPID, CLONE_NEWNET = 0x20000, 0x10000000, 0x20000000, 0x40000000
@@ -116,27 +118,28 @@ def serve(cpu_s: int) -> None:
     out = os.dup(1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what the program prints is no answer
     give_up(cpu_s)
+    make_texts_with(Text)  # which the other process unpacks
+    file = ""
     program: Program | None = None
     for line in sys.stdin.buffer:
         answer: dict[str, Any]
         try:
             message = json.loads(line)
             if "source" in message:
+                file = message["file"]
                 program = _loaded(message)
                 answer = {"answer": None}
             elif program is None:
-                answer = {"error": _("no program was loaded")}
+                answer = {"error": packed(_("no program was loaded"))}
             elif "begin" in message:
                 program.begin()
                 answer = {"answer": None}
             else:
                 answer = {"answer": program.decide(message["percept"])}
         except ProgramError as error:
-            where = f", line {error.line}" if error.line else ""
-            file = "" if program is None else program.file
-            answer = {"error": f"{file}{where}: {error.text}".removeprefix(", ").removeprefix(": ")}
+            answer = {"error": packed(error.in_file(file))}
         except MemoryError:
-            answer = {"error": _("it needs more memory than a program may have")}
+            answer = {"error": packed(_("it needs more memory than a program may have"))}
         except (Exception, SystemExit) as error:  # the program's
             answer = {"error": f"{type(error).__name__}: {error}"[:500]}
         with suppress(BrokenPipeError):  # the other process has ended, and so does the input

@@ -149,7 +149,7 @@ class _Verification:
                         "{journal}, line {number}: expected a job, got: {problem}",
                         journal=JOURNAL,
                         number=number,
-                        problem=str(error),
+                        problem=text_of(error),
                     )
                 )
         return lines

@@ -390,6 +390,5 @@ def program_controller(source: str, path: Path, entry: str, agent: BasicAgent) -
 
 def _mistake_text(path: Path, error: ProgramError) -> str:
     """Return the sentence on a mistake with its file and line."""
-    if not error.line:
-        return error.text if error.text.startswith(str(path)) else f"{path}: {error.text}"
-    return f"{path}, line {error.line}: {error.text}"
+    has_file = not error.line and error.text.startswith(str(path))
+    return error.text if has_file else error.in_file(str(path))

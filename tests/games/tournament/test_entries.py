@@ -105,7 +105,9 @@ def test_a_network_that_can_t_play_is_refused_with_a_sentence(
     assert told["forfeit"] == 0
     reason = unpacked(told["reason"])
     assert BAD[make] in reason
+    assert str(tmp_path) not in reason
     assert len(reason) <= 300
+    assert Catalogue("pt_BR").translate(reason) != reason, "it can be translated"
 
 
 def test_the_other_side_is_not_blamed(tmp_path: Path) -> None:
@@ -201,6 +203,15 @@ def test_a_program_that_fails_loses(source: str, told: str, tmp_path: Path) -> N
     result = played(good, bad, trust_python=True)
     assert result["forfeit"] == 1
     assert told in unpacked(result["reason"])
+
+
+@pytest.mark.slow
+def test_a_mistake_of_a_program_is_told_in_the_readers_language(tmp_path: Path) -> None:
+    (bad,) = programs(tmp_path, "def decide(percept):\n    return speeed\n")
+    reason = unpacked(played(bad, "random", trust_python=True)["reason"])
+    assert reason.startswith("program0.py, line 2: nothing is called 'speeed'; ")
+    translation = Catalogue("pt_BR").translate(reason)
+    assert translation.startswith("program0.py, linha 2: nada se chama 'speeed'; ")
 
 
 @pytest.mark.slow

@@ -142,9 +142,10 @@ class NeuralNetController(Controller):
             raise self._named_error(error) from None
 
     def _named_error(self, error: BlockError) -> BlockError:
-        return BlockError(
-            join([f"{type(self).__name__} {self.model_path!r}", text_of(error)], ": ")
-        )
+        title, problem = f"{type(self).__name__} {self.model_path!r}", text_of(error)
+        named = BlockError(_("{title}: {problem}", title=title, problem=problem))
+        named.problem = problem
+        return named
 
 
 def _misfit(port: Port, sensors: dict[str, SensorView], about: dict[str, Any]) -> str:
