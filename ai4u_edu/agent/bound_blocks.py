@@ -339,7 +339,7 @@ class BoundBlocks:
     def _raise_as_reading(self, error: Exception, block: Block | None, doing: Text) -> None:
         """Add block and agent to an error; raise one of this package's as a ReadingError."""
         if isinstance(error, AI4UError) and not isinstance(error, ReadingError):
-            problem = ReadingError(str(error))
+            problem = ReadingError(text_of(error))
             add_context(problem, self._agent, block, doing)
             raise problem from error
         add_context(error, self._agent, block, doing)

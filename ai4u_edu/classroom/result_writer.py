@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.classroom.course_index import known_diagnosis, words_for
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.progress import Progress, Staged
@@ -108,7 +109,7 @@ class ResultWriter:
         try:
             staged, raced, new = await asyncio.to_thread(self._write, batch)
         except StoreError as error:
-            self.problem = str(error)
+            self.problem = text_of(error)
             new = []
         else:
             self.problem = ""

@@ -18,7 +18,7 @@ from typing import Any, Self, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from ai4u_edu.base.atomic_write import make_folder, make_private, reason
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.base.file_lock import FileLock, LockedError
 from ai4u_edu.classroom.errors import StoreError
 from ai4u_edu.classroom.folder_quota import MAX_GB, FolderQuota
@@ -275,7 +275,7 @@ class ClassStore:
                 self._database = _opened(self.folder / FILE)
             except (OSError, SetupError) as error:
                 raise StoreError(
-                    _("The class's file can't be deleted: {problem}", problem=str(error))
+                    _("The class's file can't be deleted: {problem}", problem=text_of(error))
                 ) from None
 
     def __enter__(self) -> Self:

@@ -45,7 +45,7 @@ from ai4u_edu.classroom.tournament.network_scene import network_scenes
 from ai4u_edu.classroom.tournament.networks import TOO_LARGE, check_network
 from ai4u_edu.classroom.work_zip import seat_zip, zip_response
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import library_text
+from ai4u_edu.locale import library_text, translate
 from ai4u_edu.page.messages import to_json
 from ai4u_edu.page.server.limits.json_body import read_json
 from ai4u_edu.page.server.limits.rate_limit import RateLimits
@@ -294,7 +294,7 @@ class WorkRoutes:
             try:
                 await asyncio.to_thread(stars.save, seat, earned.scene, earned.stars)
             except ValueError as error:
-                raise HTTPException(422, str(error)) from None
+                raise HTTPException(422, translate(text_of(error))) from None
             stars.note(seat, earned.scene, earned.stars)
             self._live.note_change()
         return JSONResponse({"stars": stars.of_seat(seat)}, headers=NO_STORE)

@@ -114,14 +114,14 @@ def _mission_map(folder: Path | None) -> "Callable[[], MissionsView]":
 def _own_scenes() -> Path | None:
     """Return the user's folder for saved scenes; None if it can't be used."""
     from ai4u_edu.base.atomic_write import make_folder
-    from ai4u_edu.base.errors import SetupError
+    from ai4u_edu.base.errors import SetupError, text_of
     from ai4u_edu.page.editing.autosave import unsaved_folder
 
     folder = unsaved_folder().with_name("scenes")
     try:
         make_folder(folder, _("saved scenes"))
     except SetupError as error:
-        _warn(f"{error}; pages can only download scenes")
+        _warn(_("{problem}; pages can only download scenes", problem=text_of(error)))
         return None
     return folder
 

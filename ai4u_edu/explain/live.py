@@ -220,7 +220,7 @@ class BrainExplainer:
             try:
                 self.policy = Policy(brain)
             except AI4UError as error:
-                self.problem = str(error)
+                self.problem = text_of(error)
 
     def drives(self, brain: Brain, agent: AgentState) -> bool:
         """Return True if a brain and an agent's blocks are still these."""

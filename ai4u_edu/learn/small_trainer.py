@@ -249,7 +249,7 @@ def clone(
     bar = ProgressBar(updates, _("updates"), quiet=quiet)
 
     def show(update: int, error: float) -> None:
-        bar.show(update, f"error {error:.4f}")
+        bar.show(update, _("error {error:.4f}", error=error))
         on_error(update, error)
 
     try:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shorten
+from ai4u_edu.base.errors import AI4UError, SceneError, SetupError, shorten, text_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.editing.scene_pictures import load_by_name
@@ -72,7 +72,7 @@ class AssignedScenes:
             if assignment.scene:
                 self.open(assignment.scene, assignment.seed)
         except AI4UError as error:
-            return Applied(assignment.id, shorten(str(error), MAX_TEXT_CHARS))
+            return Applied(assignment.id, shorten(text_of(error), MAX_TEXT_CHARS))
         self._last = assignment.id
         return Applied(assignment.id)
 
@@ -169,7 +169,7 @@ class AssignedScenes:
                     return
             except SetupError as error:
                 raise SetupError(
-                    _("the present scene can't be saved: {problem}", problem=str(error))
+                    _("the present scene can't be saved: {problem}", problem=text_of(error))
                 ) from None
             else:
                 return

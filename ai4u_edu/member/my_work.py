@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ai4u_edu.base.atomic_write import reason
-from ai4u_edu.base.errors import SceneError, SetupError
+from ai4u_edu.base.errors import SceneError, SetupError, text_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
 from ai4u_edu.page.editing.permissions import Permissions
@@ -224,7 +224,7 @@ def _check_references(file: Path, name: str, data: bytes) -> None:
                     "yourself, and play {scene}.",
                     file=str(file),
                     name=name,
-                    problem=str(error),
+                    problem=text_of(error),
                     scene=SCENE,
                 )
             ) from None

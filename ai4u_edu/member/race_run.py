@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any
 
-from ai4u_edu.base.errors import AI4UError, shorten
+from ai4u_edu.base.errors import AI4UError, shorten, text_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.member.assigned_scenes import OPEN_TIMEOUT_S, AssignedScenes
 from ai4u_edu.member.class_view import ClassView
@@ -144,7 +144,7 @@ class RaceRun:
             self._race = None
             self._holds.for_race(-math.inf)
             return Applied(
-                race.id, shorten(_("the race: {problem}", problem=str(error)), MAX_TEXT_CHARS)
+                race.id, shorten(_("the race: {problem}", problem=text_of(error)), MAX_TEXT_CHARS)
             )
         self._watch.has_recordings = True
         return None

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Any
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording.episode import Episode
 from ai4u_edu.recording.player import Player
@@ -196,7 +196,7 @@ class FrameCache:
                 if step is not None and step not in self._frames and 0 <= step <= self.last:
                     self._make_on_request(player, step)
         except AI4UError as error:
-            self.problem = str(error)
+            self.problem = text_of(error)
         finally:
             with self._changed:
                 self._count = 0 if self._count is None else self._count

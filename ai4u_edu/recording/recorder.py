@@ -11,6 +11,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.agent.block_errors import message_of
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.base.limits import DEFAULT_KEPT_EPISODES
 from ai4u_edu.blocks import Block
 from ai4u_edu.blocks.agent_view import AgentInput
@@ -254,7 +255,7 @@ class Recorder:
                 self._builder.add_input(*early)
             self._early_inputs = []
         except RecordingError as error:  # must not stop the world
-            self.problem = str(error)
+            self.problem = text_of(error)
 
     def _editable_state(self) -> list[Any]:
         """Return everything that a person can edit, except for brains."""

@@ -3,7 +3,7 @@
 import threading
 from concurrent.futures import Future, wait
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Archive, ArchiveEntry, RecordingError
 from ai4u_edu.recording.frame_cache import FrameCache
@@ -147,7 +147,7 @@ class ReplayPlayer:
                 frame_cache.replay, min(step, last), agent=frame_cache.record.id
             )
         except AI4UError as error:
-            return _failed(str(error))
+            return _failed(text_of(error))
 
     def stop(self) -> None:
         """Stop the threads and wait for them."""

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import msgspec
 
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, BlockError, text_of
 from ai4u_edu.blocks import LocalBrain, NeuralNetController
 from ai4u_edu.blocks.loading import load_blocks
+from ai4u_edu.locale import Text, packed
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import packed
 from ai4u_edu.scenes import Scene
 from ai4u_edu.teach.background import MAX_MEMORY_BYTES, leave_the_processor_to_others
 from ai4u_edu.teach.network_score import score_network
@@ -34,9 +34,8 @@ def main() -> None:
             load_blocks(Path(file))
         note = _open(request)
     except AI4UError as error:
-        # the path is the server's
-        problem = str(error).replace(request.file, request.name).replace(FILE, request.name)
-        note = OpenNote(problem.removeprefix(f"{request.name}: "))
+        problem = error.problem if isinstance(error, BlockError) else ""
+        note = OpenNote(_named(problem or text_of(error), request))
     except MemoryError:
         note = OpenNote(
             _(
@@ -45,6 +44,17 @@ def main() -> None:
             )
         )
     sys.stdout.buffer.write(msgspec.json.encode(note, enc_hook=packed) + b"\n")
+
+
+def _named(text: str, request: OpenRequest) -> str:
+    """Return a message with the network's name in place of the server's file."""
+    if not isinstance(text, Text):
+        return text.replace(request.file, request.name).replace(FILE, request.name)
+    values = {
+        name: _named(value, request) if isinstance(value, str) else value
+        for name, value in text.values.items()
+    }
+    return Text(text.msgid, values, text.plural, text.number, text.is_sentence, text.domain)
 
 
 def _limit_processor_time() -> None:

@@ -14,7 +14,7 @@ import msgspec
 from msgspec import Meta, Struct
 
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import AI4UError, SetupError
+from ai4u_edu.base.errors import AI4UError, SetupError, text_of
 from ai4u_edu.blocks import Block, NeuralNetController
 from ai4u_edu.blocks.brains.controllers.key_defaults import listens_to_keys
 from ai4u_edu.blocks.loading import own_files
@@ -424,13 +424,12 @@ class TryingPages:
         try:
             await page.result(self._runner.submit(apply))
         except AI4UError as error:
-            problem = str(error).removeprefix("options: ")
             raise SetupError(
                 _(
                     "{number} can't be {value:g} while a program drives: {problem}",
                     number=unpacked(tries.request.label),
                     value=value,
-                    problem=problem,
+                    problem=text_of(error),
                 )
             ) from None
         return Answer()

@@ -34,6 +34,14 @@ def test_a_check_speaks_portuguese_and_saves_english(capsys: pytest.CaptureFixtu
     assert ProgressFile().entries()["00.1"].text.startswith("Your robot hardly moved")
 
 
+def test_a_mistake_in_a_scene_is_told_in_portuguese(capsys: pytest.CaptureFixture[str]) -> None:
+    with reader("pt_BR"):
+        check("20.1", "name: meu mundo\nbodys: []\n")
+    out = capsys.readouterr().out
+    assert "bodys: parâmetro desconhecido; você quis dizer 'bodies'?" in out
+    assert "unknown" not in out
+
+
 def test_a_report_is_written_in_portuguese(tmp_path: Path) -> None:
     check("00.1", stay)
     with reader("pt_BR"):

@@ -90,6 +90,18 @@ def test_a_file_that_is_no_network_is_refused(
     assert page.parts["teach"]["networks"] == []
 
 
+def test_a_refusal_is_in_the_readers_language_with_the_files_own_name(room: PanelRoom) -> None:
+    header = {"Accept-Language": "pt-BR"}
+    with PanelPage(room.url + "ws/panel", additional_headers=header) as page:
+        page.part("teach", lambda part: part["rewards"])
+        misfit = opened(page, "vaga.onnx", network_of("parking"))["text"]
+        junk = opened(page, "nada.onnx", b"hello")["text"]
+    assert misfit.startswith("vaga.onnx não consegue dirigir este robô: agente '0'")
+    assert "a rede vaga.onnx não combina com o agente '0'" in misfit
+    assert junk.startswith("nada.onnx não consegue dirigir este robô: nada.onnx: era esperada")
+    assert "expected" not in misfit + junk
+
+
 def test_a_network_of_another_robot_is_refused(page: PanelPage) -> None:
     answer = opened(page, "parking.onnx", network_of("parking"))
     assert answer["type"] == "failed"

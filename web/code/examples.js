@@ -29,7 +29,7 @@ export const EXAMPLES = [
     title: t("Drive a square"),
     text: t("It counts its decisions: some to drive, some to turn, and again."),
     scene: "forage",
-    sceneTitle: "Forage",
+    sceneTitle: t("Forage"),
     way: "M30 48V14h34v34H38",
     things: "",
     blocks: () =>
@@ -47,7 +47,7 @@ export const EXAMPLES = [
     title: t("Follow the line"),
     text: t("If the line is on the left, the right wheel drives faster; on the right, the left one."),
     scene: "line_follow",
-    sceneTitle: "Line follower",
+    sceneTitle: t("Line follower"),
     way: "M12 44c16 0 18-28 36-28",
     things: "M12 44c16 0 18-28 36-28s20 26 36 26",
     blocks: () =>
@@ -66,7 +66,7 @@ export const EXAMPLES = [
     title: t("Avoid walls"),
     text: t("It drives while there is room ahead. At a wall, it turns."),
     scene: "maze",
-    sceneTitle: "Maze",
+    sceneTitle: t("Maze"),
     way: "M16 46h40V18h22",
     things: "M66 28v28M50 8h38",
     blocks: () => program([], [either(compare(near("ahead"), "LT", number(0.8)), act(1, number(0.5)), act(0, number(0.5)))]),
@@ -76,7 +76,7 @@ export const EXAMPLES = [
     title: t("Follow a wall"),
     text: t("It keeps 0.8 m away from the wall on its right, like a hand on the wall."),
     scene: "maze",
-    sceneTitle: "Maze",
+    sceneTitle: t("Maze"),
     way: "M14 16h46v30h24",
     things: "M14 28h34v30h40M72 8v26h16",
     blocks: () =>
@@ -96,7 +96,7 @@ export const EXAMPLES = [
     title: t("Remember a side"),
     text: t("At each wall it turns to the other side than the time before: it remembers the side in a variable."),
     scene: "maze",
-    sceneTitle: "Maze",
+    sceneTitle: t("Maze"),
     way: "M12 48h22V30h22V12h26",
     things: "M44 38v18M24 20h22M66 22v16M72 6h18",
     blocks: () =>

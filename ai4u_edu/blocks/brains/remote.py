@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self, assert_never
 
 from pydantic import Field
 
-from ai4u_edu.base.errors import ActionError, SetupError, shown, suggest
+from ai4u_edu.base.errors import ActionError, SetupError, shown, suggest, text_of
 from ai4u_edu.base.parameters import quantity
 from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.brain import Accepted, Action, Answer, Brain, Command
@@ -331,7 +331,7 @@ class RemoteBrain(Brain):
             action, clipped = self._actions.accept(answer)
         except ActionError as error:
             self._status.refused += 1
-            self._status.reason = str(error)
+            self._status.reason = text_of(error)
             self._warn(str(error), reply.warning)
             if link.refuse(reply, str(error)) and self._may_wait(link):
                 self._current = observation

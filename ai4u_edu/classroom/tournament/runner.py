@@ -14,7 +14,7 @@ from threading import Thread
 from typing import Any, Literal
 
 from ai4u_edu.base.atomic_write import reason, write_atomically
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.classroom.errors import CommandError, StoreError
 from ai4u_edu.classroom.store import ClassStore, SeatRow
 from ai4u_edu.classroom.tournament.network_check import NetworkCheck, driver_of, missing_extras
@@ -353,7 +353,7 @@ def _write_plan(
         text = _("The tournament can't be saved: {reason}.", reason=reason(error))
         raise StoreError(text) from None
     except SetupError as error:
-        text = _("The tournament can't be saved: {reason}.", reason=str(error))
+        text = _("The tournament can't be saved: {reason}.", reason=text_of(error))
         raise StoreError(text) from None
 
 

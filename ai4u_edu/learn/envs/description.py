@@ -11,6 +11,8 @@ from gymnasium import spaces
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.learn.envs.element_names import Label, count_of, labels_of_action, labels_of_reading
 from ai4u_edu.learn.envs.spaces_of import outputs_of
+from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import translate
 
 MAX_LINES = 200
 """Longest list of numbers that is shown of one sensor, as text."""
@@ -55,8 +57,8 @@ class EnvDescription:
 
     def __str__(self) -> str:
         """Return a table of the observation and one of the action."""
-        readings = _table("sensor", self.by_sensor.values())
-        return f"{readings}\n\n{_table('actuator', self.by_actuator.values())}"
+        readings = _table(_("sensor"), self.by_sensor.values())
+        return f"{readings}\n\n{_table(_('actuator'), self.by_actuator.values())}"
 
 
 def describe_agent(
@@ -113,13 +115,16 @@ def _by_key(elements: Iterable[Element]) -> dict[str, tuple[Element, ...]]:
 
 
 def _table(heading: str, groups: Iterable[Sequence[Element]]) -> str:
-    rows = [("index", heading, "element", "unit", "low", "high")]
+    head = (_("index"), heading, _("element"), _("unit"), _("low"), _("high"))
+    rows = [tuple(map(translate, head))]
     for group in groups:
         for each in group[:MAX_LINES]:
             low, high = f"{each.low:g}", f"{each.high:g}"
-            rows.append((str(each.index), each.key, each.element, each.unit, low, high))
+            element = translate(each.element)
+            rows.append((str(each.index), each.key, element, each.unit, low, high))
         if len(group) > MAX_LINES:
-            rows.append(("...", group[0].key, f"{len(group) - MAX_LINES} more", "", "", ""))
+            more = translate(_("{n} more", n=len(group) - MAX_LINES))
+            rows.append(("...", group[0].key, more, "", "", ""))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     aligned = "  ".join(f"{{:{side}{width}}}" for side, width in zip("><<<>>", widths, strict=True))
     return "\n".join(aligned.format(*row) for row in rows)

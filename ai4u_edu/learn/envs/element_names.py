@@ -14,6 +14,7 @@ from ai4u_edu.blocks.sensors.orientation import OrientationSensor
 from ai4u_edu.blocks.sensors.ray_casting import RayCastingSensor
 from ai4u_edu.blocks.sensors.ray_sensor import RaySensor
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 
 
 class Label(NamedTuple):
@@ -34,7 +35,7 @@ def labels_of_reading(sensor: Sensor) -> list[Label]:
     frames = sensor.stacked_observations
     if frames > 1 or sensor.delay:
         ages = reversed(range(sensor.delay, sensor.delay + frames))  # the oldest comes first
-        found = [Label(f"{name}, {_age(age)}", unit) for age in ages for name, unit in found]
+        found = [Label(join([name, _age(age)], ", "), unit) for age in ages for name, unit in found]
     if len(found) == count_of(space):
         return found
     # a sensor of one's own may not do as its parameters say
@@ -68,7 +69,7 @@ def indices(shape: tuple[int, ...]) -> list[str]:
 
 def _age(decisions: int) -> str:
     if decisions == 0:
-        return "now"
+        return _("now")
     return (
         _("1 decision ago")
         if decisions == 1
@@ -82,7 +83,7 @@ def _labels_of_one(sensor: Sensor) -> list[Label]:
         return list(_ray_labels(sensor))
     if isinstance(sensor, FloatArrayCompositeSensor):
         return [
-            Label(f"{child.perception_key}: {name}", "" if _is_scaled(sensor) else unit)
+            Label(join([child.perception_key, name], ": "), "" if _is_scaled(sensor) else unit)
             for child in sensor.inner_blocks()
             for name, unit in labels_of_reading(child)
         ]
@@ -115,7 +116,7 @@ def _ray_labels(sensor: RaySensor) -> Iterator[Label]:
     parts = [code] * sensor.return_code + [distance] * sensor.return_distance
     if isinstance(sensor, LinearRayCastingSensor):
         for ray, part in product(range(sensor.number_of_rays), parts):
-            yield Label(f"{part.name}, ray {ray}", part.unit)
+            yield Label(_("{name}, ray {ray}", name=part.name, ray=ray), part.unit)
     elif isinstance(sensor, RayCastingSensor):
         for plane, row, column in product(parts, range(sensor.rows), range(sensor.columns)):
             yield Label(

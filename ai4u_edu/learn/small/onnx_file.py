@@ -34,7 +34,7 @@ import numpy.typing as npt
 
 from ai4u_edu.agent import BasicAgent
 from ai4u_edu.base.atomic_write import write_atomically
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.base.version import __version__
 from ai4u_edu.blocks.brains.network import MAX_LOADED_NETWORK_BYTES, TRAINING_KEY, VALUE_OUTPUT
 from ai4u_edu.learn.envs.spaces_of import (
@@ -136,7 +136,7 @@ def read_network(data: bytes, agent: BasicAgent) -> ActorCritic:
         raise SetupError(
             _(
                 "expected a network that was taught in the page for this agent, got: {problem}",
-                problem=str(error),
+                problem=text_of(error),
             )
         ) from None
     # take back what _scaled_in has multiplied in

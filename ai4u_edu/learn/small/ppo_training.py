@@ -25,7 +25,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from ai4u_edu.base.atomic_write import partial_file
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.learn.envs.worlds import Worlds
 from ai4u_edu.learn.small.actor_critic import ActorCritic
 from ai4u_edu.learn.small.opponents import SELF, Games, League, Opponents
@@ -242,7 +242,7 @@ class PpoTraining:
                 _(
                     "{path}: expected a saved training of this agent: {problem}",
                     path=str(path),
-                    problem=str(error),
+                    problem=text_of(error),
                 )
             ) from None
         return training

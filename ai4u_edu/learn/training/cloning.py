@@ -241,7 +241,7 @@ def _learn(
                 if error < best:
                     best = error
                     state = {name: each.clone() for name, each in network.state_dict().items()}
-                bar.show(update, f"error {error:.4f}")
+                bar.show(update, _("error {error:.4f}", error=error))
     finally:
         bar.close()
     network.load_state_dict(state)

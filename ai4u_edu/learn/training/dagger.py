@@ -168,7 +168,7 @@ def imitate(
                 pupil = _as_scaled(new, pupil)
                 last = each == rounds
                 error = _study(pupil, seen, said, updates * (3 if last else 1), chance)
-                bar.show(each, f"{len(seen)} decisions  error {error:.4f}")
+                bar.show(each, _("{n} decisions  error {error:.4f}", n=len(seen), error=error))
         finally:
             bar.close()
     about = {

@@ -31,6 +31,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from ai4u_edu.base.atomic_write import make_folder, partial_file
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.learn.training.settings import Algorithm, Settings
 from ai4u_edu.locale import Text
 from ai4u_edu.locale import gettext as _
@@ -204,7 +205,7 @@ class Run:
                 _(
                     "{path}: not as a training writes it: {problem}",
                     path=str(path),
-                    problem=str(error),
+                    problem=format_problems(explain(error.errors(), Config)),
                 )
             ) from None
 

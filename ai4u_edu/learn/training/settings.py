@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ai4u_edu.base.errors import SceneError, SetupError
+from ai4u_edu.base.errors import SceneError, SetupError, text_of
 from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.scenes.yaml.file import YamlFile
@@ -151,7 +151,7 @@ def settings_for(
     except ValidationError as error:
         problems = format_problems(explain(error.errors(), Settings))
         where = "settings" if changes else own.name
-        raise SetupError(f"{where}: {problems}") from None
+        raise SetupError(_("{where}: {problems}", where=where, problems=problems)) from None
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -162,7 +162,7 @@ def _read(path: Path) -> dict[str, Any]:
             _("{path}: can't be read: {problem}", path=str(path), problem=str(error))
         ) from None
     except SceneError as error:
-        raise SetupError(str(error)) from None
+        raise SetupError(text_of(error)) from None
 
 
 def _merged(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:

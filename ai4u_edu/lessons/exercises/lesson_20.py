@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ai4u_edu.agent import BasicAgent
-from ai4u_edu.base.errors import AI4UError
+from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.blocks import LocalBrain, Percept
 from ai4u_edu.lessons.exercise import Done, NotYet, exercise, named
 from ai4u_edu.lessons.exit_ticket import Question, exit_ticket
@@ -39,7 +39,7 @@ def _scene(text: Any) -> Scene:
     try:
         return Scene.loads(text, name="my_world")
     except AI4UError as error:
-        raise NotYet(str(error), hint="yaml") from error
+        raise NotYet(text_of(error), hint="yaml") from error
 
 
 @exercise(

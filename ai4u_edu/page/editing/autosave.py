@@ -15,6 +15,7 @@ from pathlib import Path
 from secrets import token_hex
 
 from ai4u_edu.base.atomic_write import reason, remove_leftovers, write_atomically
+from ai4u_edu.base.errors import text_of
 from ai4u_edu.base.file_lock import FileLock
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.state import EditState
@@ -193,7 +194,7 @@ class Autosave:
             self._fail(reason(error))
             return False
         except Exception as error:  # one scene that can't be serialized must not end the thread
-            self._fail(str(error))
+            self._fail(text_of(error))
         return True
 
     def _hold_lock(self) -> None:

@@ -93,7 +93,7 @@ class Inputs:
                 agent = choose_agent(sim, wanted)
             except NameNotFoundError as error:
                 if RECONNECT_PARAM not in socket.query_params:
-                    await socket.send_text(_json(ErrorEvent(str(error))))
+                    await socket.send_text(_json(ErrorEvent(text_of(error))))
                     await socket.close(1008, _("there is no such agent"))
                     return
                 agent = choose_agent(sim, None)

@@ -8,6 +8,7 @@ from gymnasium import spaces
 from ai4u_edu import FloatArrayCompositeSensor, OrientationSensor, Scene, VelocitySensor
 from ai4u_edu.learn.envs import SceneEnv, parallel_env
 from ai4u_edu.learn.envs.description import Element
+from ai4u_edu.locale import reader
 from tests.learn.envs.scenes import MULTI_AGENT, SCENES, first_agent
 
 
@@ -97,6 +98,14 @@ def test_a_stacked_and_delayed_reading_says_which_decision_it_is_of() -> None:
         "left, 1 decision ago",
         "turning, 1 decision ago",
     ]
+
+
+def test_the_table_is_in_the_readers_language() -> None:
+    env = agent_with(VelocitySensor(delay=2), observation="flat")
+    with reader("pt_BR"):
+        head, row, *_ = str(env.describe()).splitlines()
+    assert head.split() == ["índice", "sensor", "elemento", "unidade", "mínimo", "máximo"]
+    assert "forward, há 2 decisões" in row
 
 
 def test_the_ages_are_those_of_the_readings() -> None:

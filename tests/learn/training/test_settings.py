@@ -1,15 +1,17 @@
 """Settings files, and what becomes of a scene that is learned as they say."""
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from ai4u_edu import Scene
-from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.errors import SetupError, text_of
 from ai4u_edu.learn.envs import SceneEnv
 from ai4u_edu.learn.training.prepare import prepare
 from ai4u_edu.learn.training.settings import FOLDER, Settings, settings_for
+from ai4u_edu.locale import Catalogue
 
 
 def with_(**changes: Any) -> Settings:
@@ -56,6 +58,8 @@ def test_what_is_wrong_in_a_file(tmp_path: Path, text: str, message: str) -> Non
     with pytest.raises(SetupError) as caught:
         settings_for("box_chase", file)
     assert str(caught.value).startswith(message)
+    translation = Catalogue("pt_BR").translate(text_of(caught.value))
+    assert not re.search("expected|unknown|never closed", translation)
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:

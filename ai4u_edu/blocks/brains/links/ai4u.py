@@ -510,7 +510,7 @@ class AI4UCodec(AgentCodec):
         try:
             super().__init__(spec.readings, spec.outputs)
         except WireError as error:
-            raise SetupError(str(error)) from None
+            raise SetupError(text_of(error)) from None
         self._last: Observation | None = None
 
     def begin(self) -> None:

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from ai4u_edu.base.atomic_write import make_folder, write_atomically
 from ai4u_edu.base.errors import SetupError
+from ai4u_edu.base.parameters import explain, format_problems
 from ai4u_edu.games.jobs import Job
 from ai4u_edu.learn.training.settings import Algorithm, AlgorithmSettings, Settings
 from ai4u_edu.learn.training.sweep.search_space import Parameter, Value, changes_of, grid
@@ -85,8 +86,8 @@ class SweepPlan(BaseModel):
         try:
             settings = Settings.model_validate(given)
         except ValidationError as error:
-            told = "; ".join(f"{each['loc'][-1]}: {each['msg']}" for each in error.errors())
-            raise SetupError(f"--set: {told}") from None
+            problems = format_problems(explain(error.errors(), Settings))
+            raise SetupError(_("--set: {problems}", problems=problems)) from None
         return Job.of(
             trial,
             scene=self.scene,
@@ -193,7 +194,11 @@ class SweepPlan(BaseModel):
             ) from None
         except ValidationError as error:
             raise SetupError(
-                _("{path}: not as a sweep writes it: {problem}", path=str(path), problem=str(error))
+                _(
+                    "{path}: not as a sweep writes it: {problem}",
+                    path=str(path),
+                    problem=format_problems(explain(error.errors(), cls)),
+                )
             ) from None
 
     def difference(self, other: "SweepPlan") -> str:

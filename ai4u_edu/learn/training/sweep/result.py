@@ -75,7 +75,7 @@ class TrialResult:
                     "trial {number}: expected the result of a training, got {problem}; the "
                     "journal in this folder is none of a sweep: choose another folder",
                     number=number,
-                    problem=str(error),
+                    problem=text_of(error),
                 )
             ) from None
         return cls(
