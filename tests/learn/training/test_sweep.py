@@ -104,7 +104,7 @@ def test_a_setting_is_an_algorithms_or_the_trainings() -> None:
 def test_unknown_settings_are_told_before_anything_runs() -> None:
     with pytest.raises(SetupError, match="knows no setting 'learning_rat'"):
         plan(parameters=parameters("learning_rat=0.1,0.2")).check()
-    with pytest.raises(SetupError, match="skip_frame: Input should be"):
+    with pytest.raises(SetupError, match="--set: skip_frame: expected at least 0, got -1"):
         plan(parameters=parameters("skip_frame=-1,2")).check()
     with pytest.raises(SetupError, match="expected --trials"):
         plan(parameters=parameters("gamma=0.9..0.99")).check()
