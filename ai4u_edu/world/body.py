@@ -8,14 +8,12 @@ import pymunk
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.native import MOTION
+from ai4u_edu.world.native import FORCES, motion_of
 
 _TAU = 2 * math.pi
 
-# looked up once: they are called several times a tick
-_position, _angle, _apply_force = MOTION.position, MOTION.angle, MOTION.apply_force
-_set_velocity, _set_angular_velocity = MOTION.set_velocity, MOTION.set_angular_velocity
-_CENTRE = MOTION.vector()
+_apply_force = FORCES.apply_force  # looked up once: it is called several times a tick
+_CENTRE = FORCES.vector()
 
 
 _Place = tuple[float, float]
@@ -107,7 +105,8 @@ class BodyView:
     @_pm.setter
     def _pm(self, pm: pymunk.Body) -> None:
         self._pymunk = pm
-        self._handle, self._vector = MOTION.handle(pm), MOTION.vector()
+        self._handle, self._force = FORCES.handle(pm), FORCES.vector()
+        self._centre, self._angle, self._velocity, self._spin = motion_of(pm)
 
     @property
     def moves(self) -> bool:
@@ -117,35 +116,38 @@ class BodyView:
     @property
     def position(self) -> tuple[float, float]:
         """Centre (x, y) in metres."""
-        place = _position(self._handle)
-        return place.x, place.y
+        centre = self._centre
+        return centre.x, centre.y
 
     @property
     def heading(self) -> float:
         """Heading in radians, in [-pi, pi)."""
-        return (_angle(self._handle) + math.pi) % _TAU - math.pi
+        angle: float = self._angle[0]
+        return (angle + math.pi) % _TAU - math.pi
 
     @property
     def velocity(self) -> tuple[float, float]:
         """Velocity (vx, vy) in the world's frame, m/s."""
-        return self._pm.velocity
+        velocity = self._velocity
+        return velocity.x, velocity.y
 
     @property
     def angular_velocity(self) -> float:
         """Turning speed in radians per second, counter-clockwise positive."""
-        return self._pm.angular_velocity
+        spin: float = self._spin[0]
+        return spin
 
     @property
     def pose(self) -> tuple[float, float, float, float]:
         """Pose (x, y, z, heading) in metres and radians."""
-        place = _position(self._handle)
-        return place.x, place.y, self.z, self.heading
+        centre = self._centre
+        return centre.x, centre.y, self.z, self.heading
 
     @property
     def is_finite(self) -> bool:
         """False once the physics went out of range: place or angle is infinite or no number."""
-        place = _position(self._handle)
-        return math.isfinite(place.x + place.y + _angle(self._handle))
+        centre = self._centre
+        return math.isfinite(centre.x + centre.y + self._angle[0])
 
     @property
     def held(self) -> "BodyView | None":
@@ -154,20 +156,20 @@ class BodyView:
 
     def distance(self, other: "BodyView") -> float:
         """Return the metres between the two centres, height included."""
-        here, there = _position(self._handle), _position(other._handle)
+        here, there = self._centre, other._centre
         return math.hypot(there.x - here.x, there.y - here.y, other.z - self.z)
 
     def bearing(self, other: "BodyView") -> float:
         """Return the direction of another body: radians, 0 ahead, positive to the left."""
-        here, there = _position(self._handle), _position(other._handle)
-        direction = math.atan2(there.y - here.y, there.x - here.x)
-        return (direction - _angle(self._handle) + math.pi) % _TAU - math.pi
+        here, there = self._centre, other._centre
+        turn: float = math.atan2(there.y - here.y, there.x - here.x) - self._angle[0]
+        return (turn + math.pi) % _TAU - math.pi
 
     def to_local(self, x: float, y: float) -> tuple[float, float]:
         """Return a point of the world in this body's frame: (forward, left) in metres."""
-        place, angle = _position(self._handle), _angle(self._handle)
+        centre, angle = self._centre, self._angle[0]
         cos, sin = math.cos(angle), math.sin(angle)
-        dx, dy = x - place.x, y - place.y
+        dx, dy = x - centre.x, y - centre.y
         return cos * dx + sin * dy, cos * dy - sin * dx
 
     def __repr__(self) -> str:
@@ -182,23 +184,22 @@ class Body(BodyView):
         """Set the velocity in the world's frame, m/s."""
         if not math.isfinite(vx + vy):
             self._refuse(_("velocity"), (vx, vy))
-        vector = self._vector
-        vector.x, vector.y = vx, vy
-        _set_velocity(self._handle, vector)
+        velocity = self._velocity
+        velocity.x, velocity.y = vx, vy
 
     def set_angular_velocity(self, omega: float) -> None:
         """Set the turning speed, radians per second, counter-clockwise positive."""
         if not math.isfinite(omega):
             self._refuse(_("angular velocity"), (omega,))
-        _set_angular_velocity(self._handle, omega)
+        self._spin[0] = omega
 
     def apply_force(self, forward: float, left: float) -> None:
         """Push at the centre for one tick; newtons, in the body's own frame."""
         if not math.isfinite(forward + left):
             self._refuse(_("force"), (forward, left))
-        vector = self._vector
-        vector.x, vector.y = forward, left
-        _apply_force(self._handle, vector, _CENTRE)
+        force = self._force
+        force.x, force.y = forward, left
+        _apply_force(self._handle, force, _CENTRE)
 
     def jump(self, speed: float) -> None:
         """Leave the ground with an upward speed in m/s; there a downward one has no effect."""

@@ -16,10 +16,8 @@ from ai4u_edu.world.body import Body, BodyView
 from ai4u_edu.world.build import build
 from ai4u_edu.world.contacts import Contacts
 from ai4u_edu.world.descriptions import FloorDescription, WorldSettings
-from ai4u_edu.world.native import MOTION, release_space, step_function
+from ai4u_edu.world.native import release_space, step_function
 from ai4u_edu.world.region import SAME_HEIGHT_M, Ground, Inside, Region
-
-_position = MOTION.position  # looked up once: it is called for each mover at each tick
 
 COLLISION_SLOP_M = 0.01
 """Depth (metres) to which bodies may overlap at rest; some of it keeps contacts steady."""
@@ -227,8 +225,8 @@ class Height:
         """Move all movers vertically by one tick, after the step of the space."""
         for body, inside in tuple(self.movers.items()):
             if body.on_ground:
-                place = _position(body._handle)
-                x, y = place.x, place.y
+                centre = body._centre
+                x, y = centre.x, centre.y
                 if inside is not None:
                     left, right, lower, upper = inside
                     if left < x < right and lower < y < upper:
@@ -270,8 +268,8 @@ class Height:
 
     def _is_supported(self, body: Body) -> bool:
         """Return True if a floor or another body is right below a body's centre."""
-        z, place = body.z, _position(body._handle)
-        return self.ground(place.x, place.y, z) == z or self._highest_support(body, z) == z
+        z, centre = body.z, body._centre
+        return self.ground(centre.x, centre.y, z) == z or self._highest_support(body, z) == z
 
     def _highest_support(self, body: Body, below: float) -> float | None:
         """Return the highest floor or body top under a centre that is not above ``below``."""

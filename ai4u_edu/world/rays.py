@@ -14,7 +14,7 @@ import pymunk
 from numpy import multiply
 
 from ai4u_edu.world.body import BodyView
-from ai4u_edu.world.native import MOTION, GridArrays, compile_grid, make_segments, shape_key
+from ai4u_edu.world.native import GridArrays, compile_grid, make_segments, shape_key
 from ai4u_edu.world.region import Region
 from ai4u_edu.world.world import World
 
@@ -28,8 +28,6 @@ GROUND_TAGS = ("floor",)
 
 _MIN_SLOPE = 1e-9  # a ray of a smaller slope meets no floor within any reach
 _NO_HEIGHTS = math.inf, -math.inf  # of a missing body: no height is between them
-
-_position, _angle = MOTION.position, MOTION.angle
 
 
 class _Obstacle(NamedTuple):
@@ -99,8 +97,8 @@ class _RayCaster:
         if self._generation != self._physics.generation or self._carrier is not body:
             self._update(body)
         forward, left, up = self.eye
-        place, heading = _position(body._handle), _angle(body._handle)
-        x, y, cos, sin = place.x, place.y, math.cos(heading), math.sin(heading)
+        centre, heading = body._centre, body._angle[0]
+        x, y, cos, sin = centre.x, centre.y, math.cos(heading), math.sin(heading)
         if forward or left:
             x, y = x + cos * forward - sin * left, y + sin * forward + cos * left
         self.origin = x, y, body.z + up

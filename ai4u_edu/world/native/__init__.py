@@ -7,11 +7,12 @@ press on each other goes on a little differently.
 """
 
 from ai4u_edu.world.native.chipmunk import (
+    FORCES,
     IS_NATIVE,
-    MOTION,
     Impulses,
     contact_distances,
     contact_impulses,
+    motion_of,
     push_of,
     release_space,
     set_contact_impulses,
@@ -23,8 +24,8 @@ from ai4u_edu.world.native.grid import CompiledGrid, GridArrays, compile_grid
 from ai4u_edu.world.native.segments import Segments, is_compiled, make_segments
 
 __all__ = [
+    "FORCES",
     "IS_NATIVE",
-    "MOTION",
     "CompiledGrid",
     "GridArrays",
     "Impulses",
@@ -34,6 +35,7 @@ __all__ = [
     "contact_impulses",
     "is_compiled",
     "make_segments",
+    "motion_of",
     "push_of",
     "release_space",
     "set_contact_impulses",

@@ -20,10 +20,6 @@ PYMUNK_VERSION = "7.3."
 """Start of the version of pymunk whose private layer is known."""
 _FUNCTIONS = (
     "cpBodyApplyForceAtLocalPoint",
-    "cpBodyGetAngle",
-    "cpBodyGetPosition",
-    "cpBodySetAngularVelocity",
-    "cpBodySetVelocity",
     "cpShapesCollide",
     "cpSpaceSegmentQueryFirst",
     "cpSpaceStep",
@@ -31,6 +27,8 @@ _FUNCTIONS = (
 _ARBITER_FUNCTIONS = ("cpSpaceEachCachedArbiter", "ext_cpArbiterIteratorFunc")
 _APART = 3
 """State of an arbiter whose shapes don't touch any more."""
+_VELOCITY, _ANGLE, _SPIN, _CENTRE = 10, 14, 15, 21
+"""Places of a body's motion in Chipmunk's struct of a body, which is made of numbers of 8 bytes."""
 
 
 def _is_known() -> bool:
@@ -54,56 +52,125 @@ class _Vector:
 
 
 class Motion(NamedTuple):
-    """Functions that read and set the motion of a body, given its ``handle``."""
+    """Motion of a body: up to date whenever it is read, and set at once.
+
+    It lies in Chipmunk's own memory. A call of Chipmunk lets another thread of Python go first, and
+    reading memory doesn't: a world of 30 robots does it 120 times a tick, and could wait as often
+    for the threads that draw pages.
+    """
+
+    centre: Any
+    """Centre with ``x`` and ``y``, metres; to be read."""
+    angle: Any
+    """Radians, not wrapped, at index 0; to be read."""
+    velocity: Any
+    """Velocity with ``x`` and ``y``, world frame, m/s."""
+    spin: Any
+    """Radians per second, at index 0."""
+
+
+class _PublicVector:
+    """A vector of a body, through pymunk's public API."""
+
+    def __init__(self, pm: pymunk.Body, name: str) -> None:
+        self._pm, self._name = pm, name
+
+    @property
+    def x(self) -> float:
+        return float(getattr(self._pm, self._name)[0])
+
+    @x.setter
+    def x(self, number: float) -> None:
+        setattr(self._pm, self._name, (number, self.y))
+
+    @property
+    def y(self) -> float:
+        return float(getattr(self._pm, self._name)[1])
+
+    @y.setter
+    def y(self, number: float) -> None:
+        setattr(self._pm, self._name, (self.x, number))
+
+
+class _PublicNumber:
+    """A number of a body, likewise."""
+
+    def __init__(self, pm: pymunk.Body, name: str) -> None:
+        self._pm, self._name = pm, name
+
+    def __getitem__(self, index: int) -> float:
+        return float(getattr(self._pm, self._name))
+
+    def __setitem__(self, index: int, number: float) -> None:
+        setattr(self._pm, self._name, number)
+
+
+def public_motion(pm: pymunk.Body) -> Motion:
+    """Return a body's motion through pymunk's public API."""
+    return Motion(
+        centre=_PublicVector(pm, "position"),
+        angle=_PublicNumber(pm, "angle"),
+        velocity=_PublicVector(pm, "velocity"),
+        spin=_PublicNumber(pm, "angular_velocity"),
+    )
+
+
+def _motion(pm: pymunk.Body) -> Motion:
+    numbers = _numbers(pm)
+    return Motion(
+        centre=ffi.cast("cpVect *", numbers + _CENTRE)[0],
+        angle=numbers + _ANGLE,
+        velocity=ffi.cast("cpVect *", numbers + _VELOCITY)[0],
+        spin=numbers + _SPIN,
+    )
+
+
+def _numbers(pm: pymunk.Body) -> Any:
+    return ffi.cast("double *", pm._body)
+
+
+def _knows_motion() -> bool:
+    """Return True if motion is where it should be in Chipmunk's private struct of a body."""
+    if not IS_NATIVE:
+        return False
+    pm = pymunk.Body(1, 1)
+    motion, public = _motion(pm), public_motion(pm)
+    pm.center_of_gravity, pm.position, pm.angle = (2, 3), (0.25, 0.5), 0.75
+    pm.velocity, pm.angular_velocity = (1.25, 1.5), 1.75
+    seen, expected = (
+        (centre.x, centre.y, angle[0], velocity.x, velocity.y, spin[0])
+        for centre, angle, velocity, spin in (motion, public)
+    )
+    return bool(seen == expected)
+
+
+motion_of: Callable[[pymunk.Body], Motion] = _motion if _knows_motion() else public_motion
+"""The fastest way to a body's motion that this pymunk allows; valid as long as the body lives."""
+
+
+class Forces(NamedTuple):
+    """Functions that push a body, given its ``handle``."""
 
     handle: Callable[[pymunk.Body], Any]
     vector: Callable[[], Any]
     """Make a vector with ``x`` and ``y``, to be filled by the caller."""
-    position: Callable[[Any], Any]
-    """(handle): centre with ``x`` and ``y``, metres."""
-    angle: Callable[[Any], float]
-    """(handle): radians, not wrapped."""
-    set_velocity: Callable[[Any, Any], None]
-    """(handle, vector): world frame, m/s."""
-    set_angular_velocity: Callable[[Any, float], None]
-    """(handle, omega): radians per second."""
     apply_force: Callable[[Any, Any, Any], None]
     """(handle, force, point): both vectors in the body's frame; newtons, metres."""
-
-
-def _set_velocity(pm: pymunk.Body, vector: Any) -> None:
-    pm.velocity = vector.x, vector.y
-
-
-def _set_angular_velocity(pm: pymunk.Body, omega: float) -> None:
-    pm.angular_velocity = omega
 
 
 def _apply_force(pm: pymunk.Body, force: Any, point: Any) -> None:
     pm.apply_force_at_local_point((force.x, force.y), (point.x, point.y))
 
 
-PUBLIC_MOTION = Motion(
-    handle=lambda pm: pm,
-    vector=_Vector,
-    position=attrgetter("position"),
-    angle=attrgetter("angle"),
-    set_velocity=_set_velocity,
-    set_angular_velocity=_set_angular_velocity,
-    apply_force=_apply_force,
-)
-MOTION = (
-    Motion(
+PUBLIC_FORCES = Forces(handle=lambda pm: pm, vector=_Vector, apply_force=_apply_force)
+FORCES = (
+    Forces(
         handle=attrgetter("_body"),
         vector=lambda: ffi.new("cpVect *")[0],
-        position=lib.cpBodyGetPosition,
-        angle=lib.cpBodyGetAngle,
-        set_velocity=lib.cpBodySetVelocity,
-        set_angular_velocity=lib.cpBodySetAngularVelocity,
         apply_force=lib.cpBodyApplyForceAtLocalPoint,
     )
     if IS_NATIVE
-    else PUBLIC_MOTION
+    else PUBLIC_FORCES
 )
 """The fastest functions that this pymunk allows."""
 
@@ -129,7 +196,7 @@ def release_space(space: pymunk.Space) -> None:
 
 
 _PUSH = slice(24, 27)
-"""Place of a body's push in Chipmunk's struct of a body, which is made of numbers of 8 bytes."""
+"""Place of a body's push in the same struct."""
 
 Impulses = tuple[tuple[int, float, float], ...]
 """Number of each contact point of two shapes, and its impulses (N s) along and across."""
@@ -185,10 +252,6 @@ def push_of(pm: pymunk.Body) -> tuple[float, float, float]:
 def set_push(pm: pymunk.Body, push: tuple[float, float, float]) -> None:
     """Set the velocity that moves a body out of others in the next step."""
     _numbers(pm)[_PUSH] = push
-
-
-def _numbers(pm: pymunk.Body) -> Any:
-    return ffi.cast("double *", pm._body)
 
 
 @cache
