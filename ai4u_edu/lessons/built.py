@@ -54,6 +54,12 @@ PAGE_HINTS: Mapping[str, Mapping[str, str]] = {
         ),
         "fall": _("A fall should cost 1. That is what the reward *Fall* pays."),
     },
+    "04.4": {
+        "narrow": _(
+            "*field of view* is the angle that the rays cover; between few rays there are gaps: "
+            "*number of rays*."
+        ),
+    },
     "04.5": {
         "wall": _(
             "The wall is not seen. Not only rays are stopped by a wall: look at *visibility test* "

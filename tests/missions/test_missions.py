@@ -343,3 +343,25 @@ def open_all(do: Doing) -> None:
         do.open(tab)
     for way in ("python", "blocks"):
         do.open("code", way)
+
+
+def test_sensors_that_are_turned_off_do_not_count() -> None:
+    do = Doing("build-10")
+    off = {"type": "TouchSensor", "target": "box", "is_active": False}
+    seen = {"type": "OrientationSensor", "target": "box", "visibility_test": True}
+    bearing = {"type": "BearingSensor", "target": "box"}
+    change_agent(do, sensors=[bearing, seen, off])
+    assert do.is_done
+    on = Doing("build-10")
+    change_agent(on, sensors=[bearing, seen, {**off, "is_active": True}])
+    assert not on.is_done
+
+
+def test_rays_that_miss_are_told_in_words_of_the_page() -> None:
+    do = Doing("build-10")
+    rays = {"type": "LinearRayCastingSensor", "number_of_rays": 10, "field_of_view": 360}
+    sensors = [{"type": kind, "target": "box"} for kind in ("BearingSensor", "OrientationSensor")]
+    do.change(agents=({**do.scene.agents[0], "sensors": [*sensors, rays]},))
+    judged = judge_built("04.4", lambda: Scene(do.scene).build().agents[0])
+    assert judged.text.endswith("they need a wider field of view, or more rays.")
+    assert "*number of rays*" in judged.hint

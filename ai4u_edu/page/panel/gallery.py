@@ -65,6 +65,8 @@ def gallery_items(state: EditState, agent_id: str, kind: str) -> list[GalleryIte
     """
     items = []
     for cls in types_of(kind):
+        if cls.__name__ not in BLOCK_WORDS and cls.__module__.startswith("ai4u_edu."):
+            continue  # a part of a lesson that was loaded, and nobody's own block
         name, words = cls.__name__, words_of(cls.__name__)
         reason = reason_against_block(state, agent_id, kind, name)
         items.append(GalleryItem(name, *words[:2], hint_of(name), words.picture, reason))

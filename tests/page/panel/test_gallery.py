@@ -116,3 +116,16 @@ def test_a_block_whose_code_fails_is_grey_and_says_why() -> None:
     items = gallery_items(harness.editor.state, "0", "sensors")
     (item,) = [each for each in items if each.type_name == "Unfinished"]
     assert item.reason == "Its code raised NameError: name 'Box' is not defined."
+
+
+def test_a_block_of_a_lesson_is_not_listed_as_a_persons_own() -> None:
+    class Hidden(Sensor):
+        """Belongs to an exercise of the package."""
+
+        __module__ = "ai4u_edu.lessons.exercises.lesson_00"
+
+        def space(self) -> Any:
+            raise NotImplementedError
+
+    items = gallery_items(EditorHarness().editor.state, "0", "sensors")
+    assert "Hidden" not in [each.type_name for each in items]
