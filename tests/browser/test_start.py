@@ -203,7 +203,7 @@ def test_unsaved_changes_are_asked_about(world: World, page: Page) -> None:
     world.editor.change_settings({"title": "My maze"}).result(LIMIT_S)
     tag = page.get_by_role("button", name="Tag", exact=True)
     tag.click()
-    question = page.get_by_role("dialog", name="Open Tag?")
+    question = page.get_by_role("dialog", name="Open “Tag”?")
     expect(question).to_contain_text("Your scene is kept; find it under Unsaved.")
     question.get_by_role("button", name="Cancel").click()
     expect(question).to_be_hidden()

@@ -15,10 +15,10 @@ import { t, tn } from "../shared/text.js";
 /** Most numbers that are named one by one. */
 const MAX_NAMED = 6;
 /**
- * Numbers of the first program, from -1 to 1, by a word in their name: it drives in a circle.
+ * Numbers of the first program, from -1 to 1, by a word in their name: it drives in a circle, and does not jump.
  * @type {[RegExp, number][]}
  */
-const CIRCLE = [[/turn|steer|right/, 0.3], [/forward|throttle|speed|left/, 0.4]];
+const CIRCLE = [[/jump/, 0], [/turn|steer|right/, 0.3], [/forward|throttle|speed|left/, 0.4]];
 
 /**
  * Return the names that the program of an agent reads and writes.

@@ -249,7 +249,7 @@ export class MissionCard {
   async #openScene() {
     try {
       const text = await unsavedSentence();
-      if (text && !(await ask({ title: t("Open {title}?", { title: this.#part.scene_title }), text, yes: t("Open") }))) return;
+      if (text && !(await ask({ title: t("Open “{title}”?", { title: this.#part.scene_title }), text, yes: t("Open") }))) return;
       await request("api/scene", { name: this.#part.scene });
     } catch (error) {
       await tell(t("The scene can't be opened"), error.message);

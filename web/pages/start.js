@@ -76,7 +76,7 @@ async function open(wanted, title) {
   isOpening = true;
   try {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return false;
+    if (text && !(await ask({ title: t("Open “{title}”?", { title }), text, yes: t("Open") }))) return false;
     find("main").setAttribute("aria-busy", "true");
     await request("api/scene", wanted);
     goToWorld();

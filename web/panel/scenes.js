@@ -86,7 +86,7 @@ export class ScenePicker {
   /** @param {SceneCard} scene */
   async #load({ name, title, is_saved: isSaved = false }) {
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return;
+    if (text && !(await ask({ title: t("Open “{title}”?", { title }), text, yes: t("Open") }))) return;
     await this.#panel.send("open_scene", { name, is_saved: isSaved });
   }
 }

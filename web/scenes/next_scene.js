@@ -11,7 +11,7 @@ export async function openNextScene() {
     const index = scenes.findIndex((/** @type {{name: string}} */ scene) => scene.name === present);
     const { name, title } = scenes[(index + 1) % scenes.length];
     const text = await unsavedSentence();
-    if (text && !(await ask({ title: t("Open {title}?", { title }), text, yes: t("Open") }))) return;
+    if (text && !(await ask({ title: t("Open “{title}”?", { title }), text, yes: t("Open") }))) return;
     await request("api/scene", { name });
   } catch (error) {
     await tell(t("The next scene can't be opened"), error.message);

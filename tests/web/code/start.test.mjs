@@ -44,3 +44,8 @@ test("the first program drives in a circle, with a name for each number that doe
       '    return {"move": [forward, turn_rate], "drive": [left, right], "pick": [1], "arm": [0]}\n',
   );
 });
+
+test("the first program does not jump", () => {
+  const legs = { name: "move", is_choice: false, components: [{ name: "forward", low: -1, high: 1, has_effect: true }, { name: "forward_jump", low: 0, high: 1, has_effect: true }] };
+  assert.match(startProgram(namesOf([], [legs])), /"move": \[forward, 0\]/);
+});
