@@ -183,6 +183,8 @@ class ReachesGoal(Check):
         goals = sum(is_goal for _seed, is_goal in ends)
         if self.of is None:
             return _counted(goals, self.times)
+        if not ends:
+            return _("{times} of {of} starts have to reach the goal", times=self.times, of=self.of)
         return _(
             "{goals} of {starts} starts reached the goal; {times} of {of} are needed",
             goals=goals,
@@ -426,7 +428,7 @@ class Chooses(Check):
             if answer.text == self.right:
                 return
             shown = library_text(answer.text[:80])
-            words = _("Not “{answer}”. Try it in the world.", answer=shown)
+            words = _("Not “{answer}”. Think it over once more.", answer=shown)
 
 
 class Solves(Check):

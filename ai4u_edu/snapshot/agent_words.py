@@ -14,7 +14,7 @@ DRIVERS = {
 
 SCRIPT_PROBLEMS = {
     "waiting": _("⌛ waits for its script"),
-    "late": _("⚠ script is late"),
+    "late": _("⚠ decides too late"),
     "lost": _("✖ script is lost"),
 }
 """Texts for agents whose script is not driving them, by the state of the remote brain."""

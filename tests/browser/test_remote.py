@@ -87,7 +87,7 @@ def test_how_it_stands_with_a_script_is_seen_on_the_page(
     until(lambda: does(server, 0, 0.25, 0, 0))
     expect(trouble.filter(has_text="script")).to_have_count(0)
     script.send_signal(signal.SIGSTOP)
-    expect(trouble.filter(has_text="script is late")).to_be_visible()
+    expect(trouble.filter(has_text="decides too late")).to_be_visible()
     script.send_signal(signal.SIGCONT)
     expect(trouble.filter(has_text="script")).to_have_count(0)
     script.kill()

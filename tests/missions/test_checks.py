@@ -158,6 +158,7 @@ def test_goals_are_counted_among_different_starts() -> None:
         return [begin, end]
 
     check = following("reaches_goal", times=2, of=3)
+    assert check.words == "2 of 3 starts have to reach the goal"
     assert not see(check, *episode(1, "goal"), *episode(101, "goal"), *episode(201, "goal"))
     assert not see(check, *episode(2, "fell"), *episode(3, "fell"), *episode(4, "goal"))
     assert check.words == "1 of 3 starts reached the goal; 2 of 3 are needed"

@@ -28,7 +28,7 @@ def written(viewer: Viewer) -> list[str]:
 
 @pytest.mark.parametrize(
     ("how", "words"),
-    [("waiting", "waits for its script"), ("late", "script is late"), ("lost", "script is lost")],
+    [("waiting", "waits for its script"), ("late", "decides too late"), ("lost", "script is lost")],
 )
 def test_the_state_of_a_script_stands_at_its_agent_in_words(
     viewer: Viewer, runner: Runner, how: str, words: str
