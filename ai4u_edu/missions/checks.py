@@ -26,6 +26,8 @@ TIME_TOLERANCE_S = 1e-6
 """Times are sums of ticks, which are no round numbers."""
 MOVED_M = 0.01
 """Distance (m) between two decisions from which on a robot is on its way."""
+COASTING_DECISIONS = 12
+"""Decisions (1 s) without an action in which a robot still rolls by itself; later it is pushed."""
 MINUS = "\N{MINUS SIGN}"
 """The page writes numbers below 0 with it."""
 MAX_TEXT_CHARS = 400
@@ -43,10 +45,12 @@ class Drives(Check):
 
     def follow(self) -> Follow:
         """Add the distances between decisions of an episode, along the heading."""
-        driven, before = 0.0, None
+        driven, before, idle = 0.0, None, COASTING_DECISIONS
         while driven < self.metres:
             now: Decision = yield _("{done:.1f} of {metres:g} m", done=driven, metres=self.metres)
-            if before is not None and before.episode == now.episode:
+            idle = 0 if now.acts else idle + 1
+            is_same = before is not None and before.episode == now.episode
+            if before is not None and is_same and idle <= COASTING_DECISIONS:
                 dx, dy = now.x - before.x, now.y - before.y
                 along = dx * math.cos(before.heading) + dy * math.sin(before.heading)
                 ways = {"forward": along, "backward": -along, "any": abs(along)}

@@ -52,6 +52,8 @@ class Decision:
     flat fan of rays that read distances."""
     network: str = ""
     """File of the network that drives; empty for another driver."""
+    acts: bool = True
+    """False if the action was all zeros: whatever moved the robot, its driver did not."""
 
     def value_of(self, what: str) -> float:
         """Return a quantity, such as ``speed``, ``distance ahead`` or a number of a sensor."""
@@ -117,6 +119,7 @@ def decision_of(sim: ControlRequestor, agent: BasicAgent) -> Decision:
         percept=percept,
         distances=distances_of(agent),
         network=getattr(getattr(active_brain(agent.brain), "controller", None), "model_path", ""),
+        acts=any(any(numbers) for numbers in agent.last_action.values()),
     )
 
 

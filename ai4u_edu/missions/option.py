@@ -266,7 +266,14 @@ class MissionOption:
         if isinstance(check, Chooses):  # the page shows and sends its own language
             shown = {translate(library_text(option)): option for option in check.options}
             answer = shown.get(answer, answer)
-        await page.result(self._runner.submit(lambda: run.see_answer(answer)))
+
+        def see() -> None:
+            # the page shows numbers before the first decision, too, while it waits for a key
+            sim = self._runner.sim
+            agents = [agent for agent in sim.agents if run.counts(agent.id)]
+            run.see_answer(answer, decision_of(sim, agents[0]) if agents else None)
+
+        await page.result(self._runner.submit(see))
         return Answer()
 
     async def _judge(self, page: Page, command: JudgeFunction) -> Answer:

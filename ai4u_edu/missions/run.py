@@ -13,6 +13,8 @@ OTHER_DRIVER_DECISIONS = 24
 """Decisions (2 s) in which another driver than asked moves the robot before the page says so."""
 HINT_DECISIONS = 120
 """Decisions (10 s) in which a hint counts once, however often what it is about happens."""
+HINT_SHOWN_DECISIONS = 120
+"""Decisions (10 s) after which a hint goes away, if what it is about has not happened again."""
 MOVING_M_PER_S = 0.1
 HAS_TO_DRIVE: Mapping[str, str] = {
     "keys": _("This step is for *you*: let go of the program, or choose keys again, and drive."),
@@ -84,6 +86,8 @@ class MissionRun:
         self.hints = 0
         """Hints in this step so far; see :data:`HINT_DECISIONS`."""
         self._hint_at: int | None = None
+        self._hint_age = 0
+        """Decisions since what the hint is about has happened."""
         self._other_decisions = 0
         self._old_episode = None if self._latest is None else self._latest.episode
         self._old_networks = frozenset(self._networks)
@@ -141,9 +145,14 @@ class MissionRun:
             self._scene = scene
             self.see(scene)
 
-    def see_answer(self, text: str) -> None:
-        """See an answer to the question of the step."""
-        self.see(PersonAnswer(text, self._latest))
+    def see_answer(self, text: str, now: Decision | None = None) -> None:
+        """See an answer to the question of the step.
+
+        Args:
+            text: the answer.
+            now: what the robot senses at this moment; by default at the latest decision.
+        """
+        self.see(PersonAnswer(text, now or self._latest))
         self.version += 1  # the same wrong answer is told again
 
     def _see_hints(self, event: Event) -> None:
@@ -152,12 +161,14 @@ class MissionRun:
             return
         if self.step.by == "program" and self._is_old_episode():
             return  # the program of the step before still runs, while the person changes it
-        if isinstance(event, Decision) and event.outcome:
-            self.hint = ""  # it was about an episode before this one
+        if isinstance(event, Decision):
+            self._hint_age += 1
+            if event.outcome or self._hint_age > HINT_SHOWN_DECISIONS:
+                self.hint = ""  # it was about an episode before this one, or is over
         for place, hint in enumerate(self.step.hints):
             self._hints[place].see(event)
             if self._hints[place].is_done:
-                self.hint = hint.say
+                self.hint, self._hint_age = hint.say, 0
                 self._count_hint()
                 self._hints[place] = Following(hint.when)  # it may happen again
 

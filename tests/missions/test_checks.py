@@ -62,6 +62,14 @@ def test_drives_counts_the_way_along_the_heading() -> None:
     assert not see(following("drives", metres=2), *sideways)
 
 
+def test_a_robot_that_others_push_does_not_drive() -> None:
+    way = [step * 0.1 for step in range(40)]
+    pushed = following("drives", metres=2)
+    assert not see(pushed, *moved(*way, acts=False))
+    rolls_on = following("drives", metres=0.5)
+    assert see(rolls_on, *moved(0.0), *moved(*way[1:8], acts=False))
+
+
 def test_a_new_start_is_no_way() -> None:
     check = following("drives", metres=2)
     assert not see(check, *moved(0), *moved(50, episode=2), *moved(0, episode=3))

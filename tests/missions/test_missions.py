@@ -37,6 +37,7 @@ from tests.missions.solutions import (
     add_bodies,
     add_reward,
     change_agent,
+    hungry,
     move,
     program,
     thing,
@@ -112,6 +113,38 @@ def test_what_is_right_gets_no_hint(name: str, seed: int) -> None:
     do = Doing(name, seed)
     SOLUTIONS[name](do)
     assert (do.is_done, do.run.hints) == (True, 0)
+
+
+def test_whoever_is_pushed_back_has_not_backed_up() -> None:
+    do = Doing("drive-3", 7)
+    before = do.agent.body.position
+    do.drive(lambda _: STOP, 90)
+    assert math.dist(do.agent.body.position, before) > 0.6
+    assert (do.run.index, do.run.is_step_done) == (0, False)
+
+
+@pytest.mark.parametrize("seed", [0, 15, 17, 24])
+def test_the_way_to_the_block_pays_often_enough_before_it_is_touched(seed: int) -> None:
+    do = Doing("drive-8", seed)
+    assert do.drive(to("block", 0.5), 60)
+    assert "block" not in do.agent.view.contacts(do.agent.body)
+
+
+def test_a_car_that_is_only_partly_in_the_bay_is_told_so() -> None:
+    do = Doing("drive-6")
+    do.run.begin(2)
+    bay = do.agent.view.areas["bay"]
+    do.agent.body.move_to(bay.x + 0.6, bay.y, heading=math.pi / 2)
+    do.drive(lambda _: STOP, 30)
+    assert do.run.hint.startswith("Not yet: all of the car")
+
+
+def test_a_robot_that_has_eaten_too_much_is_told_so() -> None:
+    do = Doing("sense-6")
+    do.run.begin(1)
+    assert do.drive(hungry, 600)
+    do.drive(lambda _: STOP, 20)
+    assert do.run.hint.startswith("Its energy is above 0.8")
 
 
 @pytest.mark.parametrize("name", drawn(list(MISSIONS)))

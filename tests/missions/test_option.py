@@ -45,6 +45,15 @@ def drive(room: PanelRoom, *codes: str, decisions: int = 20) -> None:
         room.runner.submit(decide).result(LIMIT_S)
 
 
+def test_a_number_is_read_before_the_first_decision(room: PanelRoom, page: PanelPage) -> None:
+    room.runner.reset(1).result(LIMIT_S)
+    number = float(room.runner.latest.agents[0].percept["orientation"][1])
+    page.done("mission_open", mission="sense-1", step=3)
+    page.part("mission", step=3, is_done=False)
+    page.done("mission_answer", answer=f"{number:.2f}")
+    page.part("mission", is_done=True)
+
+
 def test_keys_do_a_step(room: PanelRoom, page: PanelPage) -> None:
     room.runner.reset(1).result(LIMIT_S)
     page.done("mission_open", mission="drive-1")

@@ -124,6 +124,17 @@ def test_a_hint_about_one_episode_goes_when_another_ends_without_it(run: Mission
     assert (run.hint, run.version > version) == ("", True)
 
 
+def test_a_hint_goes_ten_seconds_after_it_was_right_last(run: MissionRun) -> None:
+    for episode in (1, 2):
+        run.see(replace(STILL, step=4, episode=episode, outcome="fell"))
+        for step in range(HINT_DECISIONS):
+            run.see(replace(STILL, step=step, episode=episode + 1))
+        assert run.hint == "It fell."
+    version = run.version
+    run.see(replace(STILL, step=200, episode=3))
+    assert (run.hint, run.version > version) == ("", True)
+
+
 def test_a_hint_counts_once_in_ten_seconds(run: MissionRun) -> None:
     fell = replace(STILL, step=4, outcome="fell")
     for _ in range(5):

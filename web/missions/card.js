@@ -28,6 +28,8 @@ export class MissionCard {
   #wanted = "";
   /** The latest news of this page that the room was sent. */
   #told = "";
+  /** The latest hint of the present step, which goes away in the card, but not for the teacher. */
+  #hint = { step: "", text: "" };
   #lights;
   #exercise;
   #title = element("h2");
@@ -112,7 +114,11 @@ export class MissionCard {
       const stars = part.stars.filter(({ is_earned: isEarned }) => isEarned).length;
       reach(part.mission, { steps: part.step + 1, stars });
     }
-    if (this.#part) tellPlace({ mission: part.mission, step: part.step, is_done: part.is_done, hint: part.hint, hints: part.hints });
+    if (this.#part) {
+      const step = `${part.mission} ${part.step}`;
+      if (part.hint || step !== this.#hint.step) this.#hint = { step, text: part.hint };
+      tellPlace({ mission: part.mission, step: part.step, is_done: part.is_done, hint: this.#hint.text, hints: part.hints });
+    }
     this.#draw();
     this.#tell();
     if (this.#wanted !== part.mission) return;
