@@ -330,7 +330,9 @@ def _report(done: "Sweep", engine: str) -> None:
         shown = Table(box=None, pad_edge=False)
         for heading in rows[0]:
             shown.add_column(
-                translate(heading), justify="left" if heading == "algorithm" else "right"
+                translate(heading),
+                justify="left" if heading == "algorithm" else "right",
+                overflow="fold",  # words of some languages are wider than the terminal
             )
         for row in rows:
             shown.add_row(*map(translate, row.values()))

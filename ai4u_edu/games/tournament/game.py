@@ -28,7 +28,7 @@ from ai4u_edu.world import WorldView
 
 DEFAULT_MAX_DECISIONS = 3_000
 """Decisions after which a game ends in a scene without a limit of its own."""
-MAX_REASON_CHARS = 300
+MAX_REASON_CHARS = 600
 
 
 class _Result(BaseModel):
