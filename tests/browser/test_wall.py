@@ -221,7 +221,7 @@ def test_programs_of_a_room_are_read_as_text(page: Page, school: WallServer) -> 
 
     school.programs[1] |= {"source": "pass\n", "scene": "maze", "agent": "1", "age": 0.2}
     dialog.get_by_role("button", name="Refresh").click()
-    expect(heads.last).to_have_text("Calm Owl Maze · robot 1 · changed just now")
+    expect(heads.last).to_have_text("Calm Owl Corner maze · robot 1 · changed just now")
     school.problem = "The class's file can't be read."
     dialog.get_by_role("button", name="Refresh").click()
     expect(dialog.get_by_role("alert").first).to_have_text("The class's file can't be read.")
@@ -297,8 +297,8 @@ def test_scenes_are_assigned_to_chosen_rooms_and_raced(page: Page, school: WallS
     page.get_by_role("button", name="Assign a scene…").click()
     dialog = page.get_by_role("dialog", name="Assign a scene")
     expect_picture(dialog, "Box chase from above")
-    dialog.get_by_label("Which scene").select_option(label="Maze")
-    expect_picture(dialog, "Maze from above")
+    dialog.get_by_label("Which scene").select_option(label="Corner maze")
+    expect_picture(dialog, "Corner maze from above")
     expect(dialog.get_by_role("button", name="Assign")).to_be_in_viewport()
     dialog.get_by_label("Some rooms").check()
     dialog.get_by_role("button", name="Assign").click()
@@ -394,7 +394,7 @@ def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> 
     expect(page.get_by_role("row", name=REAL_NAME).first).to_be_visible()
     stars = page.get_by_role("region", name="Stars of programs")
     expect(stars.get_by_role("columnheader")).to_have_text(
-        ["Stars of programs", "Box chase", "Maze"]
+        ["Stars of programs", "Box chase", "Corner maze"]
     )
     expect(stars.get_by_role("row", name=name_of(3))).to_contain_text("★★★★☆☆")
     expect(stars.get_by_role("img", name="2 of 3 stars")).to_be_visible()

@@ -44,7 +44,7 @@ SCENES = [
     for name, title in (
         ("box_chase", "Box chase"),
         ("soccer", "Soccer"),
-        ("maze", "Maze"),
+        ("maze", "Corner maze"),
         ("parking", "Parking"),
     )
 ]
