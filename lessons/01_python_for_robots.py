@@ -392,8 +392,8 @@ progress()
 #
 # - Write `plan_square(side)`: a plan that drives a square and ends where it began. One loop can hold
 #   another one.
-# - `min(distances)` gives the smallest number of a list. Write it yourself, with a `for` loop: `nearest(
-#   distances)`. Which value does your variable have before the loop?
+# - `min(distances)` gives the smallest number of a list. Write it yourself, with a `for` loop:
+#   `nearest(distances)`. Which value does your variable have before the loop?
 # - What do `7 // 2` and `7 % 2` give? Try some more numbers, and find the rule.
 #
 # **Words of this lesson:** variable, function, parameter, to return, list, loop. **Next:** 02, in which
