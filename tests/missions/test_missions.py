@@ -39,6 +39,7 @@ from tests.missions.solutions import (
     change_agent,
     hungry,
     move,
+    near_rays,
     program,
     thing,
     to,
@@ -262,6 +263,22 @@ def test_taps_of_a_key_are_fine_enough_to_face_a_thing(seed: int) -> None:
 
         do.drive(tap, 200)
         assert do.run.index == index + 1
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_keys_are_slow_enough_to_drive_along_a_wall(seed: int) -> None:
+    """A held key drives at 2.4 m/s, and the walls of the maze are short."""
+    do = Doing("sense-2", seed)
+    do.run.begin(2)
+
+    def hold(agent: BasicAgent) -> Action:
+        near = near_rays(agent)
+        if near["ahead"] < 0.9:
+            return move(0, -0.6)(agent)
+        aside = near["right"] - 0.75
+        return move(0.8, math.copysign(0.6, aside) if abs(aside) > 0.12 else 0)(agent)
+
+    assert do.drive(hold, 300)
 
 
 def test_a_way_that_has_to_be_chosen_is_waited_for() -> None:
