@@ -1,14 +1,14 @@
 """The practice of a world's agents: its commands, and what begins, pauses and ends it."""
 
 from collections.abc import Awaitable, Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import Protocol
 
 from ai4u_edu.base.errors import SetupError, shown
 from ai4u_edu.blocks import LocalBrain, NeuralNetController
+from ai4u_edu.locale import Text, library_text, ngettext, unpacked
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import ngettext, unpacked
 from ai4u_edu.page.editing import SceneEditor
 from ai4u_edu.page.messages import PageCommand
 from ai4u_edu.page.panel.answers import Answer, change_answer
@@ -17,6 +17,7 @@ from ai4u_edu.page.panel.page import Page
 from ai4u_edu.recording import Episode
 from ai4u_edu.runtime.replay_player import ReplayPlayer
 from ai4u_edu.runtime.runner import Runner
+from ai4u_edu.scenes.yaml.file import YamlFile
 from ai4u_edu.teach import messages as m
 from ai4u_edu.teach.networks import MAX_NETWORKS, KeptNetwork, NetworkFolder
 from ai4u_edu.teach.practice import FOLDER as PRACTICES
@@ -149,11 +150,7 @@ class Practices:
             phase=practice.phase.value,
             problem=practice.problem,
             waiting=practice.waiting,
-            elsewhere=""
-            if is_here
-            else _(
-                "agent {agent} of {scene_name}", agent=request.agent, scene_name=request.scene_name
-            ),
+            elsewhere="" if is_here else _robot_of(request.scene, request.agent),
             is_scene_changed=is_here and request.scene != work.scene_text,
             hint=practice.hint,
             seconds_left=speed and (progress.total - progress.decisions) / speed,
@@ -378,3 +375,18 @@ class Practices:
     def _scene(self) -> str:
         """Name of the present scene."""
         return self._editor.state.description.name
+
+
+@lru_cache(4)
+def _robot_of(scene: str, agent: str) -> Text:
+    """Return an agent and its scene in words, after "The ...".
+
+    Args:
+        scene: text of the scene.
+        agent: id of the agent.
+    """
+    data = YamlFile(scene, "scene").data
+    title = library_text(data.get("title") or data.get("name") or "")
+    if len(data["agents"]) == 1:
+        return _("robot of “{title}”", title=title)
+    return _("robot {agent} of “{title}”", agent=agent, title=title)

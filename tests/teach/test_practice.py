@@ -177,7 +177,7 @@ def test_a_practice_goes_on_in_its_scene_though_the_robot_is_gone(
     room.editor.open(Scene.load("soccer")).result()
     # what is paused before the tab has looked at another scene waits for its own
     part = page.part("teach", lambda part: "goal" in part["rewards"])
-    assert part["practice"]["elsewhere"] == "agent 0 of box_chase"
+    assert part["practice"]["elsewhere"] == "robot of “Box chase”"
     before = part["practice"]["decisions"]
     page.part("teach", lambda part: part["practice"]["decisions"] > before)
     page.done("teach_pause")
