@@ -86,8 +86,8 @@ class MissionRun:
         self.hints = 0
         """Hints in this step so far; see :data:`HINT_DECISIONS`."""
         self._hint_at: int | None = None
-        self._hint_age = 0
-        """Decisions since what the hint is about has happened."""
+        self._hint_age = self._hint_ends = 0
+        """Decisions, and ends of episodes, since what the hint is about has happened."""
         self._other_decisions = 0
         self._old_episode = None if self._latest is None else self._latest.episode
         self._old_networks = frozenset(self._networks)
@@ -163,14 +163,22 @@ class MissionRun:
             return  # the program of the step before still runs, while the person changes it
         if isinstance(event, Decision):
             self._hint_age += 1
-            if event.outcome or self._hint_age > HINT_SHOWN_DECISIONS:
-                self.hint = ""  # it was about an episode before this one, or is over
+            self._hint_ends += bool(event.outcome)
+            if self._is_hint_over(event):
+                self.hint = ""
         for place, hint in enumerate(self.step.hints):
             self._hints[place].see(event)
             if self._hints[place].is_done:
-                self.hint, self._hint_age = hint.say, 0
+                self.hint, self._hint_age, self._hint_ends = hint.say, 0, 0
                 self._count_hint()
                 self._hints[place] = Following(hint.when)  # it may happen again
+
+    def _is_hint_over(self, decision: Decision) -> bool:
+        """Return True if the hint is about an episode before this one, or no longer so."""
+        starts: int | None = getattr(self.step.check, "of", None)
+        if starts is not None:  # a test of many starts is over before anybody has read it
+            return self._hint_ends >= starts
+        return bool(decision.outcome) or self._hint_age > HINT_SHOWN_DECISIONS
 
     def _note_first(self, decision: Decision) -> None:
         first = self._first

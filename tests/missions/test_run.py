@@ -135,6 +135,20 @@ def test_a_hint_goes_ten_seconds_after_it_was_right_last(run: MissionRun) -> Non
     assert (run.hint, run.version > version) == ("", True)
 
 
+def test_a_hint_about_one_of_several_starts_stays_until_as_many_have_ended() -> None:
+    text = TEXT.replace("{type: drives, metres: 2}", "{type: reaches_goal, times: 3, of: 3}")
+    run = MissionRun(read_mission(text, "test.yaml"))
+
+    def end(episode: int, outcome: str) -> str:
+        begin = replace(STILL, episode=episode, seed=episode, step=0)
+        run.see(begin)
+        run.see(replace(begin, step=3, outcome=outcome))  # type: ignore[arg-type]
+        return run.hint
+
+    hints = [end(1, "goal"), end(2, "fell"), end(3, "goal"), end(4, "time"), end(5, "time")]
+    assert hints == ["", "It fell.", "It fell.", "It fell.", ""]
+
+
 def test_a_hint_counts_once_in_ten_seconds(run: MissionRun) -> None:
     fell = replace(STILL, step=4, outcome="fell")
     for _ in range(5):
