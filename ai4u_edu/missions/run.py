@@ -89,7 +89,8 @@ class MissionRun:
         self._hint_age = self._hint_ends = 0
         """Decisions, and ends of episodes, since what the hint is about has happened."""
         self._other_decisions = 0
-        self._old_episode = None if self._latest is None else self._latest.episode
+        latest = self._latest
+        self._old_episode = latest.episode if latest and latest.driver == "program" else None
         self._old_networks = frozenset(self._networks)
         self._following.see(self._page)
         if self._scene is not None:

@@ -223,3 +223,11 @@ def test_the_program_of_the_step_before_gets_no_hint() -> None:
     run.see(replace(old, episode=2))
     run.see(replace(old, episode=2, outcome="fell"))
     assert run.hint == "It fell."
+
+
+def test_a_first_program_that_goes_on_from_the_keys_gets_hints() -> None:
+    run = MissionRun(read_mission(TEXT.replace("by: keys", "by: program"), "test.yaml"))
+    run.see(replace(STILL, driver="keys"))
+    run.begin(0)
+    run.see(replace(STILL, driver="program", outcome="fell"))
+    assert run.hint == "It fell."

@@ -12,7 +12,7 @@ from ai4u_edu.agent import BasicAgent
 from ai4u_edu.learn.envs.element_names import Label, count_of, labels_of_action, labels_of_reading
 from ai4u_edu.learn.envs.spaces_of import outputs_of
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import translate
+from ai4u_edu.locale import ngettext, translate
 
 MAX_LINES = 200
 """Longest list of numbers that is shown of one sensor, as text."""
@@ -123,7 +123,7 @@ def _table(heading: str, groups: Iterable[Sequence[Element]]) -> str:
             element = translate(each.element)
             rows.append((str(each.index), each.key, element, each.unit, low, high))
         if len(group) > MAX_LINES:
-            more = translate(_("{n} more", n=len(group) - MAX_LINES))
+            more = translate(ngettext("{n} more", "{n} more", len(group) - MAX_LINES))
             rows.append(("...", group[0].key, more, "", "", ""))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     aligned = "  ".join(f"{{:{side}{width}}}" for side, width in zip("><<<>>", widths, strict=True))
