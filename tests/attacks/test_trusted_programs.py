@@ -16,6 +16,7 @@ from ai4u_edu.games.tournament import drivers
 from ai4u_edu.games.tournament.contest import game_job
 from ai4u_edu.games.tournament.entry import Entry
 from ai4u_edu.games.tournament.game import game
+from ai4u_edu.locale import unpacked
 from tests.games.jobs import functions
 from tests.waiting import until
 
@@ -199,7 +200,7 @@ def test_a_program_sees_no_processes_but_its_own() -> None:
     if not may_unshare():
         pytest.skip("this system lets no process leave the others' namespaces")
     told = played(LOOKER)
-    assert told["reason"].endswith("RuntimeError: [1] 1 0.")
+    assert unpacked(told["reason"]).endswith("RuntimeError: [1] 1 0.")
 
 
 LOOKER = """
