@@ -8,12 +8,9 @@ import pymunk
 from ai4u_edu.base.errors import WorldError
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.world.descriptions import BodyDescription
-from ai4u_edu.world.native import FORCES, motion_of
+from ai4u_edu.world.native import apply_force, motion_of
 
 _TAU = 2 * math.pi
-
-_apply_force = FORCES.apply_force  # looked up once: it is called several times a tick
-_CENTRE = FORCES.vector()
 
 
 _Place = tuple[float, float]
@@ -105,7 +102,6 @@ class BodyView:
     @_pm.setter
     def _pm(self, pm: pymunk.Body) -> None:
         self._pymunk = pm
-        self._handle, self._force = FORCES.handle(pm), FORCES.vector()
         self._centre, self._angle, self._velocity, self._spin = motion_of(pm)
 
     @property
@@ -197,9 +193,7 @@ class Body(BodyView):
         """Push at the centre for one tick; newtons, in the body's own frame."""
         if not math.isfinite(forward + left):
             self._refuse(_("force"), (forward, left))
-        force = self._force
-        force.x, force.y = forward, left
-        _apply_force(self._handle, force, _CENTRE)
+        apply_force(self._pymunk, forward, left)
 
     def jump(self, speed: float) -> None:
         """Leave the ground with an upward speed in m/s; there a downward one has no effect."""

@@ -1,6 +1,7 @@
 """A mission that is being done: steps, hints, stars, and who drives."""
 
 from dataclasses import replace
+from typing import Literal
 
 import pytest
 
@@ -139,10 +140,10 @@ def test_a_hint_about_one_of_several_starts_stays_until_as_many_have_ended() -> 
     text = TEXT.replace("{type: drives, metres: 2}", "{type: reaches_goal, times: 3, of: 3}")
     run = MissionRun(read_mission(text, "test.yaml"))
 
-    def end(episode: int, outcome: str) -> str:
+    def end(episode: int, outcome: Literal["goal", "fell", "time"]) -> str:
         begin = replace(STILL, episode=episode, seed=episode, step=0)
         run.see(begin)
-        run.see(replace(begin, step=3, outcome=outcome))  # type: ignore[arg-type]
+        run.see(replace(begin, step=3, outcome=outcome))
         return run.hint
 
     hints = [end(1, "goal"), end(2, "fell"), end(3, "goal"), end(4, "time"), end(5, "time")]

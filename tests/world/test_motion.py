@@ -8,9 +8,7 @@ import pymunk
 
 from ai4u_edu.world.native import chipmunk as _chipmunk
 from ai4u_edu.world.native.chipmunk import (
-    FORCES,
-    PUBLIC_FORCES,
-    Forces,
+    apply_force,
     motion_of,
     public_motion,
     step_function,
@@ -35,21 +33,15 @@ def make_space() -> tuple[pymunk.Space, list[pymunk.Body]]:
     return space, bodies
 
 
-def drive(motion_of: Any, forces: Forces, tick: Any, bodies: list[pymunk.Body]) -> list[Any]:
+def drive(motion_of: Any, tick: Any, bodies: list[pymunk.Body]) -> list[Any]:
     rng = random.Random(5)
-    handles, force, where = (
-        [forces.handle(body) for body in bodies],
-        forces.vector(),
-        forces.vector(),
-    )
     motions = [motion_of(body) for body in bodies]
     seen: list[Any] = []
     for _ in range(120):
         for i, motion in enumerate(motions):
             x, y = rng.uniform(-9, 9), rng.uniform(-9, 9)
             if i % 3 == 0:
-                force.x, force.y = x, y
-                forces.apply_force(handles[i], force, where)
+                apply_force(bodies[i], x, y)
             elif i % 3 == 1:
                 motion.velocity.x, motion.velocity.y = x, y
             else:
@@ -60,20 +52,24 @@ def drive(motion_of: Any, forces: Forces, tick: Any, bodies: list[pymunk.Body]) 
     return seen
 
 
-def test_the_quick_way_is_there_and_gives_exactly_what_the_public_one_gives() -> None:
-    assert FORCES is not PUBLIC_FORCES, "with another pymunk it is; here we want to know"
+def test_the_quick_way_is_there_and_gives_exactly_what_the_public_one_gives(
+    monkeypatch: Any,
+) -> None:
+    assert _chipmunk.IS_NATIVE, "with another pymunk it is not; here we want to know"
     assert motion_of is not public_motion
     space, bodies = make_space()
-    expected = drive(public_motion, PUBLIC_FORCES, lambda: space.step(1 / 60), bodies)
+    with monkeypatch.context() as patch:
+        patch.setattr(_chipmunk, "IS_NATIVE", False)
+        expected = drive(public_motion, lambda: space.step(1 / 60), bodies)
     space, bodies = make_space()
-    assert drive(motion_of, FORCES, step_function(space, 1 / 60), bodies) == expected
+    assert drive(motion_of, step_function(space, 1 / 60), bodies) == expected
     assert len(set(expected)) == len(expected)
 
 
 def test_without_it_ticks_go_the_public_way(monkeypatch: Any) -> None:
     monkeypatch.setattr(_chipmunk, "IS_NATIVE", False)
     space, bodies = make_space()
-    slow = drive(public_motion, PUBLIC_FORCES, step_function(space, 1 / 60), bodies)
+    slow = drive(public_motion, step_function(space, 1 / 60), bodies)
     monkeypatch.undo()
     space, bodies = make_space()
-    assert drive(motion_of, FORCES, step_function(space, 1 / 60), bodies) == slow
+    assert drive(motion_of, step_function(space, 1 / 60), bodies) == slow

@@ -7,9 +7,9 @@ press on each other goes on a little differently.
 """
 
 from ai4u_edu.world.native.chipmunk import (
-    FORCES,
     IS_NATIVE,
     Impulses,
+    apply_force,
     contact_distances,
     contact_impulses,
     motion_of,
@@ -24,12 +24,12 @@ from ai4u_edu.world.native.grid import CompiledGrid, GridArrays, compile_grid
 from ai4u_edu.world.native.segments import Segments, is_compiled, make_segments
 
 __all__ = [
-    "FORCES",
     "IS_NATIVE",
     "CompiledGrid",
     "GridArrays",
     "Impulses",
     "Segments",
+    "apply_force",
     "compile_grid",
     "contact_distances",
     "contact_impulses",

@@ -3,7 +3,6 @@
 import ctypes
 from collections.abc import Callable, Mapping
 from functools import cache, partial
-from operator import attrgetter
 from typing import Any, NamedTuple
 
 import pymunk
@@ -27,6 +26,7 @@ _FUNCTIONS = (
 _ARBITER_FUNCTIONS = ("cpSpaceEachCachedArbiter", "ext_cpArbiterIteratorFunc")
 _APART = 3
 """State of an arbiter whose shapes don't touch any more."""
+_CENTRE_POINT = 0.0, 0.0
 _VELOCITY, _ANGLE, _SPIN, _CENTRE = 10, 14, 15, 21
 """Places of a body's motion in Chipmunk's struct of a body, which is made of numbers of 8 bytes."""
 
@@ -43,12 +43,6 @@ def _is_known() -> bool:
 
 IS_NATIVE = _is_known()
 """True if Chipmunk is called through pymunk's private layer, False if through its public API."""
-
-
-class _Vector:
-    """Stand-in for Chipmunk's vector."""
-
-    x = y = 0.0
 
 
 class Motion(NamedTuple):
@@ -148,31 +142,12 @@ motion_of: Callable[[pymunk.Body], Motion] = _motion if _knows_motion() else pub
 """The fastest way to a body's motion that this pymunk allows; valid as long as the body lives."""
 
 
-class Forces(NamedTuple):
-    """Functions that push a body, given its ``handle``."""
-
-    handle: Callable[[pymunk.Body], Any]
-    vector: Callable[[], Any]
-    """Make a vector with ``x`` and ``y``, to be filled by the caller."""
-    apply_force: Callable[[Any, Any, Any], None]
-    """(handle, force, point): both vectors in the body's frame; newtons, metres."""
-
-
-def _apply_force(pm: pymunk.Body, force: Any, point: Any) -> None:
-    pm.apply_force_at_local_point((force.x, force.y), (point.x, point.y))
-
-
-PUBLIC_FORCES = Forces(handle=lambda pm: pm, vector=_Vector, apply_force=_apply_force)
-FORCES = (
-    Forces(
-        handle=attrgetter("_body"),
-        vector=lambda: ffi.new("cpVect *")[0],
-        apply_force=lib.cpBodyApplyForceAtLocalPoint,
-    )
-    if IS_NATIVE
-    else PUBLIC_FORCES
-)
-"""The fastest functions that this pymunk allows."""
+def apply_force(pm: pymunk.Body, forward: float, left: float) -> None:
+    """Push a body at its centre for one step; newtons, in the body's own frame."""
+    if IS_NATIVE:  # pymunk's own method checks the lengths of both vectors
+        lib.cpBodyApplyForceAtLocalPoint(pm._body, (forward, left), _CENTRE_POINT)
+    else:
+        pm.apply_force_at_local_point((forward, left), _CENTRE_POINT)
 
 
 def step_function(space: pymunk.Space, dt: float) -> Callable[[], None]:

@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from gymnasium.spaces import Discrete
 
 from ai4u_edu import Scene, Sensor
 from ai4u_edu.blocks import Block
@@ -125,7 +126,7 @@ def test_a_block_of_a_lesson_is_not_listed_as_a_persons_own() -> None:
         __module__ = "ai4u_edu.lessons.exercises.lesson_00"
 
         def space(self) -> Any:
-            raise NotImplementedError
+            return Discrete(2)
 
     items = gallery_items(EditorHarness().editor.state, "0", "sensors")
     assert "Hidden" not in [each.type_name for each in items]
