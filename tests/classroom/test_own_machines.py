@@ -21,6 +21,7 @@ from ai4u_edu.scenes import Scene
 from tests.classroom.link_client import TeacherSocket
 from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.lessons.kernel import kernel_config
 from tests.page.server import http_client
 from tests.playing import played
 from tests.waiting import LIMIT_S, until
@@ -39,15 +40,18 @@ class Kernel:
 
     Args:
         folder: of the notebook.
+        config: as of :func:`kernel_config`.
     """
 
-    def __init__(self, folder: Path) -> None:
-        from jupyter_client.manager import start_new_kernel
+    def __init__(self, folder: Path, config: Any) -> None:
+        from jupyter_client.manager import KernelManager
 
         folder.mkdir(exist_ok=True)
-        self.manager, self._client = start_new_kernel(
-            startup_timeout=LIMIT_S, kernel_name="python3", cwd=str(folder)
-        )
+        self.manager = KernelManager(kernel_name="python3", config=config)
+        self.manager.start_kernel(cwd=str(folder))
+        self._client = self.manager.client()
+        self._client.start_channels()
+        self._client.wait_for_ready(timeout=LIMIT_S)
         self.run(BEGIN)
 
     def run(self, cell: str) -> str:
@@ -70,11 +74,12 @@ class Kernel:
 
 @contextmanager
 def kernel(folder: Path) -> Iterator[Kernel]:
-    notebook = Kernel(folder)
-    try:
-        yield notebook
-    finally:
-        notebook.kill()
+    with kernel_config() as config:
+        notebook = Kernel(folder, config)
+        try:
+            yield notebook
+        finally:
+            notebook.kill()
 
 
 @pytest.fixture(scope="module")
