@@ -26,18 +26,16 @@ def test_the_target_at_the_agent_is_reached_by_success_only(runner: Runner) -> N
 def test_it_pulses_for_a_while_in_each_episode(runner: Runner) -> None:
     now = 5.0
     pulse, end = Pulse(clock=lambda: now), ended(runner.latest, 2.1)
-    assert (pulse.scales(runner.latest) == 1.0).all()
+    assert pulse.scales(runner.latest) == {}
     pulse.scales(end)
     now += PULSE_S / 4
-    scales = pulse.scales(end)
-    assert scales[1] == pytest.approx(1.22)
-    assert (scales[[0, 2, 3, 4]] == 1.0).all()
+    assert pulse.scales(end) == {"box": pytest.approx(1.22)}
     now += PULSE_S
-    assert (pulse.scales(end) == 1.0).all()
+    assert pulse.scales(end) == {"box": 1.0}
     again = replace(end, episode=end.episode + 1)
     pulse.scales(again)
     now += PULSE_S / 4
-    assert pulse.scales(again)[1] == pytest.approx(1.22)
+    assert pulse.scales(again) == {"box": pytest.approx(1.22)}
 
 
 def test_nothing_pulses_while_motion_is_reduced(runner: Runner) -> None:
@@ -46,9 +44,9 @@ def test_nothing_pulses_while_motion_is_reduced(runner: Runner) -> None:
     end = ended(runner.latest, 2.1)
     pulse.scales(end)
     now += PULSE_S / 4
-    assert pulse.scales(end)[1] > 1.0
+    assert pulse.scales(end)["box"] > 1.0
     is_reduced = True
-    assert (pulse.scales(end) == 1.0).all()
+    assert pulse.scales(end) == {}
 
 
 def falling(snapshot: Snapshot, z: float) -> Snapshot:

@@ -8,8 +8,7 @@ labels are nodes of their own.
 import math
 import time
 from collections import defaultdict
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,7 +27,6 @@ from ai4u_edu.page.viewer.scene.face import (
     shell,
 )
 from ai4u_edu.page.viewer.scene.geometry import (
-    Array,
     cap,
     circle,
     join_meshes,
@@ -106,8 +104,8 @@ class Pulse:
         self._clock, self._is_motion_reduced = clock, is_motion_reduced
         self._began: dict[tuple[str, int, int], tuple[str, float]] = {}
 
-    def scales(self, snapshot: Snapshot) -> Array:
-        """Return the scale of each body of a snapshot, shape (n,)."""
+    def scales(self, snapshot: Snapshot) -> dict[str, float]:
+        """Return the scale of each body of a snapshot that pulses, by its name."""
         now, began = self._clock(), {}
         for agent in snapshot.agents:
             name = reached_target(snapshot, agent)
@@ -116,8 +114,7 @@ class Pulse:
                 began[episode] = self._began.get(episode, (name, now))
         self._began = began
         pulses = () if self._is_motion_reduced() else began.values()
-        sizes = {name: _pulse_scale(now - start) for name, start in pulses}
-        return np.array([sizes.get(body.name, 1.0) for body in snapshot.bodies])
+        return {name: _pulse_scale(now - start) for name, start in pulses}
 
 
 def _pulse_scale(seconds: float) -> float:
@@ -214,7 +211,7 @@ def _drawn_time(seconds: float) -> float:
     return slow + max(seconds - half, 0.0) * (SLOW_FALL_S - half / _SLOWNESS) / half
 
 
-_SHADOW_DIRECTION = np.array([0.6, -0.8])
+_SHADOW_DIRECTION = (0.6, -0.8)
 """Unit vector along which shadows fall."""
 SHADOW_OFFSET_M = 0.11
 """Distance (m) of the shadow from a body that stands on the ground."""
@@ -224,60 +221,47 @@ _MIN_FALLING_SCALE = 0.35
 """Scale of a body at the height at which it leaves the world."""
 
 
-class DrawnPoses(NamedTuple):
-    """The drawn poses of all bodies, one row for each."""
+class DrawnPose(NamedTuple):
+    """The drawn pose of a body."""
 
-    positions: Array
-    """(n, 3)"""
-    wxyzs: Array
-    """(n, 4) quaternions w, x, y, z."""
-    scales: Array
-    """(n,) 1 normally, less while a body falls, 0 for bodies that left the world."""
-    depths: Array
-    """(n,) 0 on or above the lowest floor, 1 at the height at which a body leaves the world."""
-    shadow_positions: Array
-    """(n, 3)"""
-    shadow_scales: Array
-    """(n,) 0 where there is no ground for the shadow."""
+    position: tuple[float, float, float]
+    wxyz: tuple[float, float, float, float]
+    """Quaternion w, x, y, z."""
+    scale: float
+    """1 normally, less while the body falls, 0 if it has left the world."""
+    depth: float
+    """0 on or above the lowest floor, 1 at the height at which a body leaves the world."""
+    shadow_position: tuple[float, float, float]
+    shadow_scale: float
+    """0 where there is no ground for the shadow."""
 
 
-def compute_poses(snapshot: Snapshot, layers: Layers) -> DrawnPoses:
-    """Return the drawn poses of all bodies of a snapshot.
+def drawn_pose(body: BodyState, static_scene: StaticScene, layers: Layers) -> DrawnPose:
+    """Return the drawn pose of a body.
 
-    It runs in every frame, usually for few bodies: so it makes few calls of numpy.
+    It is computed without numpy, which takes longer for the few bodies that usually move.
     """
-    bodies, static_scene = snapshot.bodies, snapshot.static_scene
-    grounds = [_ground(snapshot, body) for body in bodies]
-    numbers = np.array(
-        [(b.x, b.y, b.z, b.heading, g or 0.0) for b, g in zip(bodies, grounds, strict=True)]
-    ).reshape(-1, 5)
-    heights, half_headings, ground_heights = numbers[:, 2], numbers[:, 3] / 2, numbers[:, 4]
-    is_gone = np.array([body.fallen for body in bodies], dtype=bool)
-    is_void = np.array([ground is None for ground in grounds], dtype=bool)
+    x, y, z, half_heading = body.x, body.y, body.z, body.heading / 2
+    ground = z if body.on_ground else static_scene.floor_under(x, y, z)
     lowest = static_scene.lowest_floor
     reach = max(lowest - static_scene.settings.fall_threshold, 0.1)
-    depths = np.minimum(np.maximum((lowest - heights) / reach, 0.0), 1.0)
-    scales = 1 - (1 - _MIN_FALLING_SCALE) * depths
-    scales[is_gone] = 0.0
-    rise = np.maximum(heights - ground_heights, 0.0)
-    rise[is_void] = 0.0
-    positions = numbers[:, :3] + (0.0, 0.0, layers.body)
-    wxyzs = np.zeros((len(bodies), 4))
-    wxyzs[:, 0], wxyzs[:, 3] = np.cos(half_headings), np.sin(half_headings)
-    shadow_positions = np.empty((len(bodies), 3))
+    depth = min(max((lowest - z) / reach, 0.0), 1.0)
+    level = 0.0 if ground is None else ground
+    rise = 0.0 if ground is None else max(z - level, 0.0)
     offset = SHADOW_OFFSET_M + _SHADOW_OFFSET_PER_HEIGHT * rise
-    shadow_positions[:, :2] = numbers[:, :2] + offset[:, None] * _SHADOW_DIRECTION
-    shadow_positions[:, 2] = ground_heights + layers.shadow
-    shadow_scales = np.ones(len(bodies))
-    shadow_scales[is_void | is_gone] = 0.0
-    return DrawnPoses(positions, wxyzs, scales, depths, shadow_positions, shadow_scales)
+    along_x, along_y = _SHADOW_DIRECTION
+    return DrawnPose(
+        position=(x, y, z + layers.body),
+        wxyz=(math.cos(half_heading), 0.0, 0.0, math.sin(half_heading)),
+        scale=0.0 if body.fallen else 1 - (1 - _MIN_FALLING_SCALE) * depth,
+        depth=depth,
+        shadow_position=(x + offset * along_x, y + offset * along_y, level + layers.shadow),
+        shadow_scale=0.0 if body.fallen or ground is None else 1.0,
+    )
 
 
-def _ground(snapshot: Snapshot, body: BodyState) -> float | None:
-    """Return the height of the ground under a body; None over the void."""
-    if body.on_ground:
-        return body.z
-    return snapshot.static_scene.floor_under(body.x, body.y, body.z)
+def _scaled(pose: DrawnPose, pulse: float) -> DrawnPose:
+    return pose._replace(scale=pulse * pose.scale)
 
 
 BLACK: Rgb = (0, 0, 0)
@@ -321,6 +305,8 @@ class Bodies:
 
     def build(self, static_scene: StaticScene) -> None:
         """Create a batch for each kind of body, if the bodies have changed."""
+        for group in self._groups:
+            group.forget()  # the ground may be another one
         self._layers = Layers.of(static_scene)
         wanted = (static_scene.bodies, static_scene.agent_of, self._layers)
         if wanted == self._built_for:
@@ -363,12 +349,10 @@ class Bodies:
 
     def draw(self, snapshot: Snapshot) -> None:
         """Move all bodies to their current poses."""
-        drawn = replace(snapshot, bodies=self._slow_fall.drawn(snapshot))
+        states, pulses = self._slow_fall.drawn(snapshot), self._pulse.scales(snapshot)
         self._draw_puff(snapshot)
-        poses = compute_poses(drawn, self._layers)
-        poses = poses._replace(scales=poses.scales * self._pulse.scales(snapshot))
         for group in self._groups:
-            group.move(poses)
+            group.move(states, pulses, snapshot.static_scene)
 
     def _draw_puff(self, snapshot: Snapshot) -> None:
         """Draw discs that spread where a body has just left its floor, and vanish."""
@@ -439,12 +423,17 @@ class _BodyGroup:
         *,
         is_node: bool,
     ) -> None:
-        self._members = np.array(members)
-        self._looks: tuple[Array, Array, Array] | None = None
+        self._members = members
+        self._layers = layers
         self._is_round = all(
             isinstance(static_scene.bodies[index].shape, CircleShape) for index in members
         )
-        self._placed: tuple[npt.NDArray[Any], ...] = (np.empty(0),) * 3
+        self._shown: list[tuple[BodyState, float]] = []
+        """State and scale of each member's pulse, as drawn last."""
+        self._poses: list[DrawnPose] = []
+        """Their poses."""
+        self._drawn: dict[str, tuple[Any, ...]] = {}
+        """The same by the name of the field."""
         self._frame = scene.add_frame(name, show_axes=False) if is_node else None
         drawer = MeshDrawer(scene, name)
         bodies = [static_scene.bodies[index] for index in members]
@@ -493,51 +482,72 @@ class _BodyGroup:
 
         self._body.on_click(report_errors(on_click))
 
-    def move(self, poses: DrawnPoses) -> None:
-        """Move the members to their current poses."""
-        members = self._members
-        self._place(poses.positions[members], poses.shadow_positions[members], poses.wxyzs[members])
-        looks = poses.scales[members], poses.shadow_scales[members], poses.depths[members]
-        if self._looks is not None and all(map(np.array_equal, looks, self._looks)):
-            return
-        self._looks = looks
-        for batch in (self._body, *self._marks):
-            batch.batched_scales = poses.scales[members]
-        if self.moving_parts is not None:
-            self.moving_parts.resize(float(poses.scales[members][0]))
-        self._shadow.batched_scales = poses.shadow_scales[members]
-        self._body.batched_colors = self._colours(poses.depths[members])
+    def forget(self) -> None:
+        """Compute all poses again when the members are moved next."""
+        self._shown, self._poses = [], []
 
-    def _place(self, *placed: npt.NDArray[Any]) -> None:
-        """Set what has changed: viser's own comparison takes longer than all else in a frame.
+    def move(
+        self, states: Sequence[BodyState], pulses: Mapping[str, float], static_scene: StaticScene
+    ) -> None:
+        """Move the members to their current poses.
 
         Args:
-            placed: positions (n, 3) and positions of the shadows (n, 3) in metres, wxyzs (n, 4).
+            states: of all bodies.
+            pulses: scale of each body that pulses, by its name.
+            static_scene: the world.
         """
-        positions, shadow_positions, wxyzs = placed
-        before, self._placed = self._placed, placed
-        moved, shadow_moved, turned = (
-            not np.array_equal(*each) for each in zip(placed, before, strict=True)
-        )
-        if self._frame is None:
-            for batch in (self._body, *self._marks):
-                if moved:
-                    batch.batched_positions = positions
-                if turned:
-                    batch.batched_wxyzs = wxyzs
-            if shadow_moved:
-                self._shadow.batched_positions = shadow_positions
-            if turned:
-                self._shadow.batched_wxyzs = wxyzs
+        shown = [(states[index], pulses.get(states[index].name, 1.0)) for index in self._members]
+        if shown == self._shown:
             return
-        if moved:
-            self._frame.position = positions[0]
-        if shadow_moved:
-            self._shadow.position = shadow_positions[0]
-        if turned:
-            self._frame.wxyz = wxyzs[0]
-            if not self._is_round:  # a round shadow looks the same
-                self._shadow.wxyz = wxyzs[0]
+        kept = dict(zip(self._shown, self._poses, strict=True))
+        self._shown = shown
+        self._poses = [
+            kept.get(each) or _scaled(drawn_pose(each[0], static_scene, self._layers), each[1])
+            for each in shown
+        ]
+        drawn, self._drawn = (
+            self._drawn,
+            dict(zip(DrawnPose._fields, zip(*self._poses, strict=True), strict=True)),
+        )
+        # viser's own comparison takes longer than all else in a frame
+        changed = {name for name, values in self._drawn.items() if values != drawn.get(name)}
+        self._place(changed)
+        if changed & {"scale", "shadow_scale", "depth"}:
+            scales = np.array(self._drawn["scale"])
+            for batch in (self._body, *self._marks):
+                batch.batched_scales = scales
+            if self.moving_parts is not None:
+                self.moving_parts.resize(float(scales[0]))
+            self._shadow.batched_scales = np.array(self._drawn["shadow_scale"])
+            self._body.batched_colors = self._colours(np.array(self._drawn["depth"]))
+
+    def _place(self, changed: Collection[str]) -> None:
+        """Set the positions and orientations that have changed.
+
+        Args:
+            changed: names of the fields of :class:`DrawnPose` that have.
+        """
+        if self._frame is not None:
+            (pose,) = self._poses
+            if "position" in changed:
+                self._frame.position = pose.position
+            if "shadow_position" in changed:
+                self._shadow.position = pose.shadow_position
+            if "wxyz" in changed:
+                self._frame.wxyz = pose.wxyz
+                if not self._is_round:  # a round shadow looks the same
+                    self._shadow.wxyz = pose.wxyz
+            return
+        if "position" in changed:
+            positions = np.array(self._drawn["position"])
+            for batch in (self._body, *self._marks):
+                batch.batched_positions = positions
+        if "shadow_position" in changed:
+            self._shadow.batched_positions = np.array(self._drawn["shadow_position"])
+        if "wxyz" in changed:
+            wxyzs = np.array(self._drawn["wxyz"])
+            for batch in (self._body, *self._marks, self._shadow):
+                batch.batched_wxyzs = wxyzs
 
     def _colours(self, depths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
         """Return the members' colours; a falling body fades to the colour of the void."""
