@@ -35,6 +35,8 @@ from ai4u_edu.page.server.token_auth import is_same_secret
 
 _logger = logging.getLogger(__name__)
 
+PRELOAD = "ai4u_edu.classroom.room_preload"
+"""Is imported in the process that rooms are forked from, and nowhere else."""
 TIMEOUTS = DEFAULT_TIMEOUTS
 """Time limits of the rooms' servers."""
 KILL_TIMEOUT_S = 60.0
@@ -111,7 +113,7 @@ class LocalRooms:
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
-            self._context.set_forkserver_preload([run_room.__module__])
+            self._context.set_forkserver_preload([PRELOAD])
 
     is_hosting = True
 

@@ -1,6 +1,7 @@
 """Scenes: read from files, built into worlds with agents, written to files."""
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
@@ -32,6 +33,11 @@ MAX_ERRORS = 20
 BLOCK_KINDS = ("sensors", "actuators", "rewards", "brains")
 UNKNOWN_NAME_PHRASES = ("is named", "is called", "carries the tag", "the network")
 """Phrases in messages before a name that does not exist."""
+
+
+@cache
+def _library_names() -> tuple[str, ...]:
+    return tuple(sorted(path.stem for path in LIBRARY.glob("*.yaml")))
 
 
 class Scene:
@@ -136,7 +142,7 @@ class Scene:
     @staticmethod
     def names() -> list[str]:
         """Return the names of all scenes in the library."""
-        return sorted(path.stem for path in LIBRARY.glob("*.yaml"))
+        return list(_library_names())
 
     def build(
         self, seed: int = 0, *, brains: Callable[[BasicAgent], Brain | None] | None = None

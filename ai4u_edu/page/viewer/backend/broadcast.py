@@ -2,7 +2,9 @@
 
 viser lets every page gather, pack and compress the same messages again, which takes most of a core
 with thirty pages. Here all pages that are up to date share one packing. A page that can't keep up
-skips outdated messages. See ``docs/adr/0006-serialize-once-for-all-pages.md``.
+skips outdated messages. Messages for one page go out as soon as they are complete, where viser
+waits a sixtieth of a second, for which it starts a timer and a task.
+See ``docs/adr/0006-serialize-once-for-all-pages.md``.
 """
 
 import asyncio
@@ -35,8 +37,7 @@ SEND_BUFFER_BYTES = 64 * 2**10
 messages replace them, and not on the way."""
 
 _BROADCASTER = "_ai4u_edu_broadcaster"
-_IS_OURS = "_ai4u_edu_is_ours"
-"""Attribute of the buffers of single pages of a server with a broadcaster."""
+"""Attribute of the buffers of a server whose messages are sent by broadcasters."""
 _logger = logging.getLogger(__name__)
 Producer = Callable[..., Awaitable[None]]
 
@@ -59,10 +60,10 @@ class LoopEvent(asyncio.Event):
 
 
 class Broadcaster:
-    """Sends new messages to all pages of a server. Belongs to viser's event loop.
+    """Sends new messages of a buffer to its pages. Belongs to viser's event loop.
 
     Args:
-        buffer: viser's buffer of the messages for all pages.
+        buffer: viser's buffer of the messages for all pages of a server, or for one page.
     """
 
     def __init__(self, buffer: AsyncMessageBuffer) -> None:
@@ -86,7 +87,7 @@ class Broadcaster:
         try:
             while buffer.atomic_counter:
                 await asyncio.sleep(0.001)
-            messages = self._between(-1, backlog, client_id)
+            messages = self._taken(-1, backlog, client_id)
             for first in range(0, len(messages), MAX_BACKLOG_MESSAGES):
                 await connection.send(pack(messages[first : first + MAX_BACKLOG_MESSAGES]))
             if backlog_done_message is not None:
@@ -141,7 +142,7 @@ class Broadcaster:
             else:
                 behind[cursors[client_id]].append(client_id)
         for since, client_ids in behind.items():
-            messages = self._between(since, last)
+            messages = self._taken(since, last)
             excluded = {message.excluded_self_client for message in messages}
             for client_id in client_ids:
                 cursors[client_id] = last  # first: a message that fails would fail again
@@ -156,16 +157,20 @@ class Broadcaster:
         if client_ids and messages:
             broadcast([self._pages[each] for each in client_ids], pack(messages))
 
-    def _between(self, since: int, last: int, client_id: int = -1) -> list[Message]:
+    def _taken(self, since: int, last: int, client_id: int = -1) -> list[Message]:
         """Return the messages after ``since`` up to ``last``, except those that exclude a page.
 
-        viser has removed those that a newer one replaces.
+        viser has removed those that a newer one replaces. A buffer for one page forgets them.
         """
-        messages = self._buffer.message_from_id
+        buffer, messages = self._buffer, self._buffer.message_from_id
+        if not buffer.persistent_messages:
+            with buffer.buffer_lock:
+                taken = [buffer.pop_message_locked(each) for each in range(since + 1, last + 1)]
+            return [each for each in taken if each is not None]
         if last - since <= len(messages):
             found = [messages.get(each) for each in range(since + 1, last + 1)]
         else:  # after a long time few numbers are left
-            with self._buffer.buffer_lock:
+            with buffer.buffer_lock:
                 found = [each for key, each in messages.items() if since < key <= last]
         return [each for each in found if each and each.excluded_self_client != client_id]
 
@@ -224,16 +229,19 @@ def install_broadcaster(server: viser.ViserServer) -> bool:
     if viser.__version__ != VISER_VERSION:
         return False
     web = server._websock_server
-    buffer = web.get_message_buffer()
-    setattr(buffer, _BROADCASTER, Broadcaster(buffer))
-    web.on_client_connect(_mark_buffer)
+    _let_broadcast(web.get_message_buffer())
+    web.on_client_connect(_let_broadcast_to_one)
     if _infra._message_producer is _visers_producer:
         _infra._message_producer = _produce
     return True
 
 
-async def _mark_buffer(connection: WebsockClientConnection) -> None:
-    setattr(connection.get_message_buffer(), _IS_OURS, True)
+def _let_broadcast(buffer: AsyncMessageBuffer) -> None:
+    setattr(buffer, _BROADCASTER, Broadcaster(buffer))
+
+
+async def _let_broadcast_to_one(connection: WebsockClientConnection) -> None:
+    _let_broadcast(connection.get_message_buffer())
 
 
 _visers_producer: Producer = _infra._message_producer
@@ -251,34 +259,12 @@ async def _produce(
     the page.
     """
     broadcaster: Broadcaster | None = getattr(buffer, _BROADCASTER, None)
-    if broadcaster is None and not hasattr(buffer, _IS_OURS):
+    if broadcaster is None:
         await _visers_producer(websocket, buffer, client_id, backlog_done_message)
         return
     if not isinstance(buffer.message_event, LoopEvent):
         buffer.message_event = LoopEvent()
         buffer.message_event.set()
-    if broadcaster is None:
-        await _send_windows(websocket, buffer, client_id, backlog_done_message)
-        return
     stream: socket.socket = websocket.transport.get_extra_info("socket")
     stream.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
     await broadcaster.serve(websocket, client_id, backlog_done_message)
-
-
-async def _send_windows(
-    connection: ServerConnection,
-    buffer: AsyncMessageBuffer,
-    client_id: int,
-    backlog_done_message: Message | None,
-) -> None:
-    """Send the messages of a buffer that belongs to one page."""
-    windows = buffer.window_generator(client_id, backlog_done_message=backlog_done_message)
-    try:
-        while not buffer.done:
-            try:
-                window = await anext(windows)
-            except StopAsyncIteration:
-                break
-            await connection.send(pack(window))
-    finally:
-        await windows.aclose()
