@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -114,6 +115,7 @@ class LocalRooms:
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
             self._context.set_forkserver_preload([PRELOAD])
+            forkserver.ensure_running()  # it imports while the first student comes in
 
     is_hosting = True
 

@@ -1,7 +1,7 @@
 """What all rooms' processes have in common: the process that they are forked from imports this.
 
-A room then starts without importing options and reading missions, and shares their memory with the
-others. Frozen, those objects stay shared: no room's garbage collector writes to them.
+A room then starts without importing options and reading missions and scripts, and shares their
+memory with the others. They are frozen, so that no room's garbage collector writes to them.
 """
 
 import gc
@@ -10,10 +10,12 @@ from contextlib import suppress
 from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, load_option
 from ai4u_edu.classroom import room_process  # noqa: F401 - for the processes that are forked
 from ai4u_edu.missions import mission_map
+from ai4u_edu.page.server.web_files import WebFiles
 
 for name in PAGE_OPTIONS:
     with suppress(MissingOptionError):
         load_option(name, "a room")
 mission_map()
+WebFiles().version  # noqa: B018 - reads them
 gc.collect()
 gc.freeze()

@@ -3,6 +3,8 @@
 import json
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -24,6 +26,20 @@ from tests.waiting import LIMIT_S, Deadline, until
 pytestmark = pytest.mark.slow
 
 
+IMPORTS_OF_A_ROOM = """
+import importlib, sys
+from pathlib import Path
+from ai4u_edu.classroom.local_rooms import PRELOAD
+importlib.import_module(PRELOAD)
+shared = set(sys.modules)
+from ai4u_edu.room import Room, RoomSettings
+folder = Path(sys.argv[1])
+settings = RoomSettings(scene="box_chase", learns_in_class=True, class_folder=folder, work=folder)
+with Room(settings):
+    print([each for each in sorted(sys.modules.keys() - shared) if each.startswith("ai4u_edu")])
+"""
+
+
 @pytest.fixture(scope="module")
 def served(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ServedClass]:
     with served_class(tmp_path_factory.mktemp("class")) as served:
@@ -39,6 +55,12 @@ def test_a_room_answers_its_student_and_the_driver_moves_there(served: ServedCla
         with page.holding("KeyW"):
             until(lambda: ada.get("api/snapshot").json()["tick"] > 10)
     assert ben.get("api/snapshot").json()["tick"] == 0
+
+
+def test_rooms_import_nothing_of_ours_that_they_could_share(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", IMPORTS_OF_A_ROOM, str(tmp_path)]
+    told = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S, check=True)
+    assert told.stdout == "[]\n"
 
 
 def test_nobody_enters_the_room_of_another(served: ServedClass) -> None:

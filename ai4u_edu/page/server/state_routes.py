@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from pydantic import BaseModel
@@ -56,7 +57,7 @@ class StateRoutes:
     def __init__(self, runner: Runner, title: Callable[[], str], *, can_open: bool) -> None:
         self._runner, self._title = runner, title
         self._began = time.monotonic()
-        self._document = _openapi(can_open=can_open)
+        self._can_open = can_open
         self._cached: tuple[Snapshot | None, str] = None, ""
 
     async def health(self, _: Request) -> Response:
@@ -79,7 +80,7 @@ class StateRoutes:
 
     async def describe(self, _: Request) -> Response:
         """Return the API's OpenAPI document."""
-        return JSONResponse(self._document)
+        return JSONResponse(_openapi(can_open=self._can_open))
 
 
 def _json(text: str, *, status: int = 200) -> Response:
@@ -87,6 +88,7 @@ def _json(text: str, *, status: int = 200) -> Response:
     return Response(text, status, media_type="application/json", headers=headers)
 
 
+@cache
 def _openapi(*, can_open: bool) -> dict[str, Any]:
     """Return the OpenAPI 3.1 document, which is derived from the models of the answers.
 

@@ -266,6 +266,7 @@ def test_one_page_s_own_things_come_in_their_order_and_all(server: LocalServer) 
                 seen += marks(told(page.recv(LIMIT_S)))
         while "299" not in seen:
             seen += marks(told(page.recv(LIMIT_S)))
+        assert not own._websock_connection.get_message_buffer().message_from_id
     assert list(dict.fromkeys(seen)) == [str(number) for number in range(300)]
 
 
