@@ -17,7 +17,7 @@ from pydantic import ValidationError
 from ai4u_edu.base.atomic_write import write_atomically
 from ai4u_edu.blocks.loading import own_files
 from ai4u_edu.classroom.errors import StoreError
-from ai4u_edu.classroom.room_queue import QueueRow, RoomQueue
+from ai4u_edu.classroom.room_queue import STOPPED_BY_TEACHER, QueueRow, RoomQueue
 from ai4u_edu.classroom.store import ClassStore
 from ai4u_edu.learn.training.run import Run
 from ai4u_edu.locale import gettext as _
@@ -97,6 +97,8 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
         """Read all from the store."""
         rows = self._store.query("select key, room, state from practices order by rowid")
         self._rows = {key: _Row(room, _read(state)) for key, room, state in rows}
+        for row in self._rows.values():
+            self._look(row)  # those that are over are not looked at again
 
     def sentence(self, room: str) -> str:
         """Return how the practice of a room goes, or went; empty if it has none."""
@@ -104,12 +106,14 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
         if not rows or rows[-1].state.problem == STOPPED:
             return ""
         row = rows[-1]
+        if row.state.problem == STOPPED_BY_TEACHER and not row.checks:
+            return ""
         if row.state.place:
             return _("waits to practise, place {place}", place=row.state.place)
         if not row.state.is_over:
             done = row.decisions / max(1, row.total)
             how = _("practises, {done:.0%} done", done=done)
-        elif row.checks:
+        elif row.checks or not row.state.problem:
             how = _("practised")
         else:
             return _("could not practise")

@@ -1,4 +1,4 @@
-"""What all rooms' processes have in common: the process that they are forked from imports this.
+"""Imports of the process that rooms are forked from, and what all of them read.
 
 A room then starts without importing options and reading missions and scripts, and shares their
 memory with the others. They are frozen, so that no room's garbage collector writes to them.

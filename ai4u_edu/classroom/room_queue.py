@@ -25,6 +25,7 @@ from ai4u_edu.wire.validation import MAX_TEXT_CHARS
 
 MAX_ENDED = 3
 """Rows of a room that are over and still listed, so that it learns how they ended."""
+STOPPED_BY_TEACHER = _("your teacher has stopped it")
 MISSING = _("its files are not there any more; begin another one")
 
 

@@ -29,6 +29,7 @@ from ai4u_edu.classroom.missions import MAX_NAME_CHARS
 from ai4u_edu.classroom.names import MOVE_CODE_LIFE_S
 from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
+from ai4u_edu.classroom.room_queue import STOPPED_BY_TEACHER
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import SeatState
 from ai4u_edu.classroom.store import TEACHER_SETTING
@@ -53,7 +54,6 @@ from ai4u_edu.wire.class_link import (
 MAX_BODY_BYTES = 4 * MAX_SENT_SCENE_CHARS + 6 * MAX_STARTING_PROGRAM_CHARS + 4000
 MAX_COUNTDOWN_S = 60.0
 HANDED_OUT_TITLE = _("From your teacher")
-STOPPED_BY_TEACHER = _("your teacher has stopped it")
 _RoomId = Annotated[str, Field(max_length=40)]
 _Seed = Annotated[int, Field(ge=0, le=MAX_SEED)]
 _Seconds = Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)]

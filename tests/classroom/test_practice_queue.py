@@ -19,7 +19,7 @@ from ai4u_edu.classroom.practice_queue import (
     TOO_MANY,
     PracticeQueue,
 )
-from ai4u_edu.classroom.room_queue import MISSING
+from ai4u_edu.classroom.room_queue import MISSING, STOPPED_BY_TEACHER
 from ai4u_edu.classroom.trainings import FULL
 from ai4u_edu.learn.small.ppo import PpoSettings
 from ai4u_edu.learn.training.run import Run
@@ -135,6 +135,8 @@ def test_a_practice_that_has_used_its_time_is_ended(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_practices_go_on_in_the_next_process_of_a_class(tmp_path: Path) -> None:
+    sentences: list[str] = []
+
     async def begin(asking: Asking) -> None:
         folder = await asking.practise("a", "first", 8192)
         await asking.is_learning("a", "first", folder)
@@ -143,9 +145,17 @@ def test_practices_go_on_in_the_next_process_of_a_class(tmp_path: Path) -> None:
     async def go_on(asking: Asking) -> None:
         asking.queue.tick()
         assert await asking.has_ended("a", "first") == ""
+        sentences.append(asking.queue.sentence("a"))
+
+    async def look(asking: Asking) -> None:
+        sentences.append(asking.queue.sentence("a"))
 
     with_queue(tmp_path, begin)
     with_queue(tmp_path, go_on)
+    with_queue(tmp_path, look)
+    first, second = sentences
+    assert first.startswith("practised, goal ")
+    assert second == first
 
 
 def test_a_room_waits_with_a_few_practices_only(tmp_path: Path) -> None:
@@ -157,6 +167,15 @@ def test_a_room_waits_with_a_few_practices_only(tmp_path: Path) -> None:
         assert [state.problem for state in states] == [*[""] * MAX_OPEN, TOO_MANY]
         await asking.queue.add("a", Practise("key-0", "box_chase-1.practice"))
         assert len(asking.queue.of_room("a")) == MAX_OPEN + 1
+
+    with_queue(tmp_path, task)
+
+
+def test_nothing_is_said_of_a_practice_that_a_teacher_stopped_at_once(tmp_path: Path) -> None:
+    async def task(asking: Asking) -> None:
+        await asking.practise("a", "first", LATE)
+        assert await asking.queue.stop("a", problem=STOPPED_BY_TEACHER)
+        assert asking.queue.sentence("a") == ""
 
     with_queue(tmp_path, task)
 
