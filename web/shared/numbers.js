@@ -26,11 +26,13 @@ export function seconds(value) {
 }
 
 /**
- * Return a share as "35%".
+ * Return a share as "35%". A half goes to the even number, as in Python's sentences: the page shows both.
  * @param {number} share 0 to 1
  */
 export function percent(share) {
-  return `${Math.round(100 * share)}%`;
+  const value = 100 * share;
+  const nearest = Math.round(value);
+  return `${nearest - value === 0.5 && nearest % 2 ? nearest - 1 : nearest}%`;
 }
 
 /**

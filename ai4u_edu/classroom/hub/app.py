@@ -4,7 +4,7 @@ import asyncio
 import hmac
 import re
 import secrets
-from collections.abc import Iterable
+from collections.abc import Awaitable, Iterable
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from urllib.parse import quote, unquote
@@ -192,25 +192,14 @@ class _HubStudent:
 
     async def me(self, request: Request) -> Response:
         """Return a browser's seat, and the way to the student's own server."""
-        try:
-            user = await self._sign_in.user_of(request)
-            return await self._seat(user)
-        except HubUnreachableError as error:
-            return problem(text_of(error), 503)
-        except NoAccessError as error:
-            return problem(text_of(error), 403)
+        return await self._seat(self._sign_in.user_of(request))
 
     async def seat(self, request: Request) -> Response:
         """Return the seat of a program that has a token of the hub."""
         found = _TOKEN.fullmatch(request.headers.get("authorization", ""))
-        try:
-            address = client_address(request.scope)
-            user = await self._api.user_of(found[1], address) if found else None
-            return await self._seat(user)
-        except HubUnreachableError as error:
-            return problem(text_of(error), 503)
-        except NoAccessError as error:
-            return problem(text_of(error), 403)
+        if found is None:
+            return problem(SIGN_IN, 401)
+        return await self._seat(self._api.user_of(found[1], client_address(request.scope)))
 
     async def room_of(self, token: str, address: str) -> LiveRoom | None:
         """Return the room of a link with a token of the hub; None if its user has no seat.
@@ -229,7 +218,13 @@ class _HubStudent:
         seat = None if user is None else await asyncio.to_thread(self._seats.find, user)
         return None if seat is None else self._live.room(remote_id(seat.number), seat.number)
 
-    async def _seat(self, user: HubUser | None) -> Response:
+    async def _seat(self, asked: Awaitable[HubUser | None]) -> Response:
+        try:
+            user = await asked
+        except HubUnreachableError as error:
+            return problem(text_of(error), 503)
+        except NoAccessError as error:
+            return problem(text_of(error), 403)
         if user is None:
             return problem(SIGN_IN, 401)
         try:
