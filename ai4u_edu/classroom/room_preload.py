@@ -7,6 +7,8 @@ memory with the others. They are frozen, so that no room's garbage collector wri
 import gc
 from contextlib import suppress
 
+import filelock  # noqa: F401 - a file that is locked imports it when it is needed
+
 from ai4u_edu.base.options import PAGE_OPTIONS, MissingOptionError, load_option
 from ai4u_edu.classroom import room_process  # noqa: F401 - for the processes that are forked
 from ai4u_edu.missions import mission_map
