@@ -36,8 +36,9 @@ from ai4u_edu.page.server.token_auth import is_same_secret
 
 _logger = logging.getLogger(__name__)
 
-PRELOAD = "ai4u_edu.classroom.room_preload"
-"""Is imported in the process that rooms are forked from, and nowhere else."""
+PRELOAD = ("filelock", run_room.__module__, "ai4u_edu.classroom.room_preload")
+"""Modules that are imported in the process that rooms are forked from. A file that is locked would
+import the first one when it is needed; the last one is imported nowhere else."""
 TIMEOUTS = DEFAULT_TIMEOUTS
 """Time limits of the rooms' servers."""
 KILL_TIMEOUT_S = 60.0
@@ -114,7 +115,7 @@ class LocalRooms:
         is_forked = sys.platform == "linux"
         self._context = multiprocessing.get_context("forkserver" if is_forked else "spawn")
         if is_forked:
-            self._context.set_forkserver_preload([PRELOAD])
+            self._context.set_forkserver_preload([*PRELOAD])
             forkserver.ensure_running()  # it imports while the first student comes in
 
     is_hosting = True

@@ -30,7 +30,8 @@ IMPORTS_OF_A_ROOM = """
 import importlib, sys
 from pathlib import Path
 from ai4u_edu.classroom.local_rooms import PRELOAD
-importlib.import_module(PRELOAD)
+for name in PRELOAD:
+    importlib.import_module(name)
 shared = set(sys.modules)
 from ai4u_edu.room import Room, RoomSettings
 folder = Path(sys.argv[1])

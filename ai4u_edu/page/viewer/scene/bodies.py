@@ -8,7 +8,7 @@ labels are nodes of their own.
 import math
 import time
 from collections import defaultdict
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -264,6 +264,11 @@ def _scaled(pose: DrawnPose, pulse: float) -> DrawnPose:
     return pose._replace(scale=pulse * pose.scale)
 
 
+def _by_field(poses: Sequence[DrawnPose]) -> dict[str, tuple[Any, ...]]:
+    """Return the values of all poses by the name of their field; empty for no poses."""
+    return dict(zip(DrawnPose._fields, zip(*poses, strict=True), strict=bool(poses)))
+
+
 BLACK: Rgb = (0, 0, 0)
 MAX_SHADOW_BLUR_M = 0.16
 """Largest width (m) of a shadow's soft edge."""
@@ -432,8 +437,6 @@ class _BodyGroup:
         """State and scale of each member's pulse, as drawn last."""
         self._poses: list[DrawnPose] = []
         """Their poses."""
-        self._drawn: dict[str, tuple[Any, ...]] = {}
-        """The same by the name of the field."""
         self._frame = scene.add_frame(name, show_axes=False) if is_node else None
         drawer = MeshDrawer(scene, name)
         bodies = [static_scene.bodies[index] for index in members]
@@ -499,33 +502,30 @@ class _BodyGroup:
         shown = [(states[index], pulses.get(states[index].name, 1.0)) for index in self._members]
         if shown == self._shown:
             return
-        kept = dict(zip(self._shown, self._poses, strict=True))
+        before, kept = self._poses, dict(zip(self._shown, self._poses, strict=True))
         self._shown = shown
         self._poses = [
             kept.get(each) or _scaled(drawn_pose(each[0], static_scene, self._layers), each[1])
             for each in shown
         ]
-        drawn, self._drawn = (
-            self._drawn,
-            dict(zip(DrawnPose._fields, zip(*self._poses, strict=True), strict=True)),
-        )
         # viser's own comparison takes longer than all else in a frame
-        changed = {name for name, values in self._drawn.items() if values != drawn.get(name)}
+        drawn, earlier = _by_field(self._poses), _by_field(before)
+        changed = {name: values for name, values in drawn.items() if values != earlier.get(name)}
         self._place(changed)
-        if changed & {"scale", "shadow_scale", "depth"}:
-            scales = np.array(self._drawn["scale"])
+        if changed.keys() & {"scale", "shadow_scale", "depth"}:
+            scales = np.array(drawn["scale"])
             for batch in (self._body, *self._marks):
                 batch.batched_scales = scales
             if self.moving_parts is not None:
                 self.moving_parts.resize(float(scales[0]))
-            self._shadow.batched_scales = np.array(self._drawn["shadow_scale"])
-            self._body.batched_colors = self._colours(np.array(self._drawn["depth"]))
+            self._shadow.batched_scales = np.array(drawn["shadow_scale"])
+            self._body.batched_colors = self._colours(np.array(drawn["depth"]))
 
-    def _place(self, changed: Collection[str]) -> None:
+    def _place(self, changed: Mapping[str, tuple[Any, ...]]) -> None:
         """Set the positions and orientations that have changed.
 
         Args:
-            changed: names of the fields of :class:`DrawnPose` that have.
+            changed: values of all members by the name of the field of :class:`DrawnPose`.
         """
         if self._frame is not None:
             (pose,) = self._poses
@@ -539,13 +539,13 @@ class _BodyGroup:
                     self._shadow.wxyz = pose.wxyz
             return
         if "position" in changed:
-            positions = np.array(self._drawn["position"])
+            positions = np.array(changed["position"])
             for batch in (self._body, *self._marks):
                 batch.batched_positions = positions
         if "shadow_position" in changed:
-            self._shadow.batched_positions = np.array(self._drawn["shadow_position"])
+            self._shadow.batched_positions = np.array(changed["shadow_position"])
         if "wxyz" in changed:
-            wxyzs = np.array(self._drawn["wxyz"])
+            wxyzs = np.array(changed["wxyz"])
             for batch in (self._body, *self._marks, self._shadow):
                 batch.batched_wxyzs = wxyzs
 
