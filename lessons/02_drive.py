@@ -94,8 +94,8 @@ film("sample_scene", ahead, seed=1, limit=12)
 #
 # ### Exercise 02.1: how far?
 #
-# A robot drives at `speed` metres a second. How many decisions does it take to cover `distance` metres?
-# Compute it from the two numbers. (It need not be a whole number: the check rounds.)
+# A robot decides 12 times a second, and drives at `speed` metres a second. How many decisions does it take
+# to cover `distance` metres? Compute it from the two numbers. (It need not be a whole number: the check rounds.)
 
 
 # %% tags=["exercise-02.1"]
@@ -109,7 +109,8 @@ check("02.1", decisions_for)
 # %% [markdown]
 # ### Exercise 02.2: a quarter turn
 #
-# A robot turns at `degrees_per_second`. How many decisions does it take to turn by 90 degrees?
+# A robot decides 12 times a second, and turns at `degrees_per_second`. How many decisions does it take to
+# turn by 90 degrees?
 
 
 # %% tags=["exercise-02.2"]

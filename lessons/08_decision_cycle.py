@@ -90,8 +90,9 @@ show("box_chase", seed=4)
 # %% [markdown]
 # ### Exercise 08.1: blind
 #
-# Between two decisions an agent is blind: whatever happens, it carries on with what it decided. How many
-# **metres** does a robot drive from one decision to the next, at `speed` metres a second?
+# Between two decisions an agent is blind: whatever happens, it carries on with what it decided. The world
+# ticks 60 times a second, and `skip_frame` ticks pass without thinking. How many **metres** does a robot
+# drive from one decision to the next, at `speed` metres a second?
 
 
 # %% tags=["exercise-08.1"]

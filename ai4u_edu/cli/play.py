@@ -33,7 +33,7 @@ def play(
     allow_host: o.AllowHost = None,
     token: o.Token = "",
     connections: o.Connections = 120,
-    seeded_resets: o.SeededResets = False,
+    seeded_resets: o.SeededResets = None,
     lockstep: o.Lockstep = None,
     on_missing: o.PlayOnMissing = None,
     grace: o.Grace = 3.0,
@@ -55,11 +55,14 @@ def play(
     """Serve a scene in the browser; drive with W, A, S, D."""
     expect_scene("play", [scene, *context.args])
     from ai4u_edu.page.editing.autosave import unsaved_folder
-    from ai4u_edu.page.server import Rules, hosts_for, token_for
+    from ai4u_edu.page.server import Rules, hosts_for, is_loopback, token_for
     from ai4u_edu.room import RoomSettings
 
     load_own_blocks(own_blocks)
     token = token_for(host, token)
+    if is_loopback(host) and not allow_host:  # nobody else has to wait, or begins again
+        lockstep = True if lockstep is None else lockstep
+        seeded_resets = True if seeded_resets is None else seeded_resets
     settings = RoomSettings(
         scene=scene,
         is_scene_named=_is_scene_named(context),
@@ -68,7 +71,7 @@ def play(
         wait_for_key=wait_for_key,
         allowed_hosts=hosts_for(host),
         proxy_hosts=tuple(allow_host or ()),
-        rules=Rules(grace, receive_timeout, token, seeded_resets, lockstep, on_missing or ""),
+        rules=Rules(grace, receive_timeout, token, bool(seeded_resets), lockstep, on_missing or ""),
         missions=_mission_map(missions),
         missions_folder=missions,
         record=record,

@@ -65,9 +65,12 @@ Connections = Annotated[
     ),
 ]
 SeededResets = Annotated[
-    bool,
+    bool | None,
     typer.Option(
-        "--seeded-resets", help="Let the script of one of several agents reset the whole world."
+        "--seeded-resets/--no-seeded-resets",
+        help="Let the script of one of several agents reset the whole world. Default: only if no "
+        "other machine can reach the server.",
+        show_default=False,
     ),
 ]
 Lockstep = Annotated[
@@ -75,7 +78,7 @@ Lockstep = Annotated[
     typer.Option(
         "--lockstep/--no-lockstep",
         help="Let scripts make the world wait for their actions. Default: only in scenes with "
-        "one agent.",
+        "one agent, or if no other machine can reach the server.",
         show_default=False,
     ),
 ]

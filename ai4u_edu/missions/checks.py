@@ -1,7 +1,6 @@
 """The kinds of checks of a mission: each follows what happens in a world until it is satisfied."""
 
 import math
-import re
 from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, Self
@@ -202,25 +201,33 @@ class IsPaid(Check):
     """A reward term is paid, several times in one episode."""
 
     type: Literal["is_paid"] = "is_paid"
-    reward: Annotated[str, StringConstraints(min_length=1, max_length=80)]
-    """Name of the term, since with any term a small reward on the way would do. ``touch_2`` and so
-    on, as Build names further ones of a kind, count as ``touch``."""
+    reward: Annotated[str, StringConstraints(max_length=80)] = ""
+    """Name of the term, since with any term a small reward on the way would do."""
+    block: Annotated[str, StringConstraints(max_length=80)] = ""
+    """Class of the reward function, such as ``TouchRewardFunc``, in place of the name: a person who
+    builds may choose another name."""
     times: Times = 1
+
+    @model_validator(mode="after")
+    def _looks_at_one(self) -> Self:
+        if bool(self.reward) == bool(self.block):
+            raise ValueError(_("expected either a reward or a block"))
+        return self
 
     def follow(self) -> Follow:
         """Count the decisions that pay more than 0."""
         count, episode = 0, None
-        names = re.compile(rf"{re.escape(self.reward)}(_\d+)?")
         while count < self.times:
             now: Decision = yield _counted(count, self.times)
             if now.episode != episode:
                 count, episode = 0, now.episode
-            count += any(paid > 0 for name, paid in now.terms.items() if names.fullmatch(name))
+            names = [name for name, paid in now.terms.items() if paid > 0]
+            count += self.reward in names or self.block in map(now.reward_types.get, names)
 
     def fit(self, agent: BasicAgent) -> None:
         """Check that the agent is paid such a reward."""
         names = [reward.name for reward in agent.rewards]
-        if self.reward not in names:
+        if self.reward and self.reward not in names:
             raise SetupError(
                 _(
                     "the robot gets no reward {reward!r}; {hint}",

@@ -44,6 +44,8 @@ class Decision:
     """Turning speed (degrees/s), above 0 to the left."""
     terms: Mapping[str, float]
     """Reward of the decision, by term."""
+    reward_types: Mapping[str, str] = field(repr=False)
+    """Class of each reward function, by its name."""
     outcome: Literal["", "goal", "fell", "time", "over"]
     """End of the episode; empty before it."""
     percept: Mapping[str, Any] = field(repr=False)
@@ -115,6 +117,7 @@ def decision_of(sim: ControlRequestor, agent: BasicAgent) -> Decision:
         speed=vx * math.cos(body.heading) + vy * math.sin(body.heading),
         turning=math.degrees(body.angular_velocity),
         terms=dict(agent.ledger.terms) if agent.steps else {},
+        reward_types={reward.name: type(reward).__name__ for reward in agent.rewards},
         outcome=outcome,
         percept=percept,
         distances=distances_of(agent),

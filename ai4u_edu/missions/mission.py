@@ -46,12 +46,13 @@ CONTROLS = (
     *("Code", "Compare", "Details", "Drive", "First actuator", "First brain", "First reward"),
     *("First sensor", "Follow", "Keys", "Learn", "Let it drive", "More"),
     *("Networks", "New start", "Past", "Pause", "Practise", "Program", "Python", "Rewards", "Run"),
-    *("Sensors", "Simple", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes", "Trail"),
-    *("Try again", "Wall", "World"),
+    *("Sensors", "Simple", "Space", "Step", "Stop", "Target", "Teach", "Test", "Through its eyes"),
+    *("Trail", "Try again", "Wall", "World"),
 )
 """Controls of the page that a mission can light, by the names that they have there; ``Keys`` are
-the keys on the screen, ``Program`` is the editor of a program, ``Networks`` is the card of a
-network in the tab "Teach", and ``First sensor`` is a sensor's first card in the tab "Build"."""
+the keys on the screen that drive, ``Space`` is the one for the space bar, ``Program`` is the editor
+of a program, ``Networks`` is the card of a network in the tab "Teach", and ``First sensor`` is a
+sensor's first card in the tab "Build"."""
 
 
 def _known_control(name: str) -> str:

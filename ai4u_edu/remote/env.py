@@ -19,7 +19,8 @@ class RemoteEnv(gymnasium.Env[Any, Any]):
 
     It waits for at most its ``--receive-timeout``, and then goes on without this agent's action; an
     algorithm that learns for longer between two steps needs a longer one. In a world with several
-    agents, its owner has to allow that it waits (``ai4u-edu play --lockstep``).
+    agents that other machines can reach, its owner has to allow that it waits (``ai4u-edu play
+    --lockstep``).
 
     ``info`` has ``reward_terms`` (by name), ``success`` (whether the scene's goal was reached in
     this episode), and the percept's ``tick``. The spaces are those of the same scene's environment

@@ -130,9 +130,9 @@ def connect(
         token: the world's, if it has one.
         mode: ``"realtime"``: the world never waits, and an action counts as soon as it arrives.
             ``"lockstep"``: the world waits for each action, as training needs it. In a world with
-            several agents, its owner has to allow that (``ai4u-edu play --lockstep``). If a script
-            is silent for longer than the world's ``--receive-timeout``, the world goes on until the
-            script answers.
+            several agents that other machines can reach, its owner has to allow that (``ai4u-edu
+            play --lockstep``). If a script is silent for longer than the world's
+            ``--receive-timeout``, the world goes on until the script answers.
         keys: keys of the readings to get, such as ``["ray_casting"]``; default: all.
         session: :attr:`Robot.session` of a script that is gone, to resume its session.
         patience: seconds to wait for a world that is not there, at first or again after it was

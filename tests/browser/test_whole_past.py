@@ -44,7 +44,6 @@ def page(server: Played, chromium: Browser) -> Iterator[Page]:
         until(lambda: where(server, "robot")[0] > 1)
         page.keyboard.up("KeyW")
         server.restart(MIDDLE)
-        button(page, "Let it race me").wait_for()  # it comes with the episode, and moves the tabs
         open_tab(page, "Past")
         card(page, "Episode 1").wait_for()
         yield page

@@ -42,6 +42,7 @@ class Doing:
     """
 
     def __init__(self, name: str, seed: int = 1, *, driver: Driver | None = None) -> None:
+        self.name = name
         self.run = MissionRun(library_missions().get(name))
         self.decisions = 0
         self._driver = driver
@@ -133,6 +134,17 @@ class Doing:
                 self.decisions += 1
                 self.go_on()
         return self.run.index != index or self.is_done
+
+    def drive_for_stars(self, policy: Policy, limit: int = 9000) -> None:
+        """Drive until all stars are earned; after an episode's end, another one begins."""
+        self._policy = policy
+        for _ in range(limit):
+            if all(self.run.stars):
+                return
+            if self.agent.done:
+                self.new_start()
+            else:
+                self.sim.step()
 
     def go_on(self) -> None:
         """Press Next if the step is done."""

@@ -30,6 +30,7 @@ STILL = Decision(
     speed=0.0,
     turning=0.0,
     terms={},
+    reward_types={},
     outcome="",
     percept={"eyes": np.array([0.25, 0.75]), "level": 0.5},
     distances={"ahead": 2.0, "right": 1.0},
@@ -180,18 +181,21 @@ def test_rewards_are_counted_in_one_episode() -> None:
     assert see(check, paid, paid)
 
 
-def test_a_reward_that_has_to_be_paid_has_a_name() -> None:
-    with pytest.raises(ValidationError, match="reward"):
-        following("is_paid")
+def test_a_reward_that_has_to_be_paid_has_a_name_or_a_class() -> None:
+    for fields in ({}, {"reward": "touch", "block": "TouchRewardFunc"}):
+        with pytest.raises(ValidationError, match="expected either a reward or a block"):
+            following("is_paid", **fields)
     small = replace(STILL, terms={"closer": 0.1, "touch": 0.0})
     assert not see(following("is_paid", reward="touch"), small)
 
 
-def test_a_further_reward_of_the_kind_counts_as_build_names_it() -> None:
-    second = replace(STILL, terms={"touch": 0.0, "touch_2": 1.0})
-    assert see(following("is_paid", reward="touch"), second)
-    other = replace(STILL, terms={"touch_wall": 1.0, "touch_2b": 1.0})
-    assert not see(following("is_paid", reward="touch"), other)
+def test_a_reward_of_a_class_counts_whatever_its_name_is() -> None:
+    types = {"cup": "TouchRewardFunc", "off": "FallReward"}
+    paid = replace(STILL, terms={"cup": 1.0, "off": 0.0, "handlers": 1.0}, reward_types=types)
+    assert see(following("is_paid", block="TouchRewardFunc"), paid)
+    assert see(following("is_paid", reward="cup"), paid)
+    assert not see(following("is_paid", block="FallReward"), paid)
+    assert not see(following("is_paid", reward="touch"), paid)
 
 
 def test_ranges_have_to_hold_together_and_in_a_row() -> None:

@@ -37,6 +37,7 @@ from tests.missions.solutions import (
     add_bodies,
     add_reward,
     change_agent,
+    earn_stars,
     hungry,
     move,
     near_rays,
@@ -107,6 +108,13 @@ def test_its_solution_passes(name: str, seed: int) -> None:
     do = Doing(name, seed)
     SOLUTIONS[name](do)
     assert do.is_done, (do.run.index, do.run.words, do.run.hint)
+
+
+@pytest.mark.parametrize("name", drawn([name for name, each in MISSIONS.items() if each.stars]))
+def test_each_of_its_stars_can_be_earned(name: str) -> None:
+    do = Doing(name, 3)
+    earn_stars(do)
+    assert all(do.run.stars), (do.run.stars, [star.say for star in do.run.mission.stars])
 
 
 @pytest.mark.parametrize(("name", "seed"), [("think-2", 4)])

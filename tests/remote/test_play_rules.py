@@ -5,9 +5,9 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from ai4u_edu import room
 from ai4u_edu.base.errors import SetupError
 from ai4u_edu.cli.main import app
-from ai4u_edu.page import server
 from ai4u_edu.page.server import Rules
 
 
@@ -18,10 +18,10 @@ class Told(Exception):
 def rules_of(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Rules:
     """The rules with which a command would serve its room."""
 
-    def tell(*values: Any) -> None:
-        raise Told(Rules(*values))
+    def tell(settings: room.RoomSettings, *_: object) -> None:
+        raise Told(settings.rules)
 
-    monkeypatch.setattr(server, "Rules", tell)
+    monkeypatch.setattr(room, "Room", tell)
     result = CliRunner().invoke(app, ["play", "sumo", "--no-open", "--no-autosave", *arguments])
     error = result.exception
     if not isinstance(error, Told):
@@ -33,12 +33,24 @@ def rules_of(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> Rules:
 
 def test_a_room_has_the_rules_that_it_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
     rules = rules_of(monkeypatch)
-    assert rules == Rules(token=rules.token)
+    assert rules == Rules(lockstep=True, seeded_resets=True)
     wanted = "--lockstep --on-missing coast --grace 45.5 --receive-timeout 60000 --seeded-resets"
     assert rules_of(monkeypatch, *wanted.split()) == Rules(
         lockstep=True, on_missing="coast", grace=45.5, receive_timeout=60_000, seeded_resets=True
     )
     assert rules_of(monkeypatch, "--no-lockstep").lockstep is False
+    assert rules_of(monkeypatch, "--no-seeded-resets").seeded_resets is False
+
+
+@pytest.mark.parametrize(
+    "arguments", [("--host", "192.168.7.7"), ("--allow-host", "hub.school.org")]
+)
+def test_where_others_may_come_scripts_of_several_agents_do_not_hold_up_the_world(
+    arguments: tuple[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rules = rules_of(monkeypatch, *arguments)
+    assert (rules.lockstep, rules.seeded_resets) == (None, False)
+    assert rules_of(monkeypatch, *arguments, "--lockstep").lockstep is True
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ const PLACES = {
   "First sensor": "[data-blocks=sensors] .ai4u-card-head",
   Keys: ".ai4u-dpad:not(:empty), .ai4u-dock",
   Networks: ".ai4u-networks [aria-expanded=true], .ai4u-networks [aria-expanded]",
+  Space: ".ai4u-dock [data-code=Space]",
   Program: ".ai4u-code-editor, .ai4u-blocks-editor",
 };
 /**

@@ -90,6 +90,7 @@ export class Keycaps {
       element("span", { textContent: name }),
     );
     keycap.dataset.action = action;
+    keycap.dataset.code = code;
     const press = (/** @type {PointerEvent} */ event) => {
       // else the first keycap captures the finger, which then can't slide to another one
       keycap.releasePointerCapture(event.pointerId);

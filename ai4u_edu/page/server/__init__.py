@@ -2,7 +2,7 @@
 
 from ai4u_edu.page.server.address import AddressError, PortTakenError
 from ai4u_edu.page.server.app import RoomMount, room_app
-from ai4u_edu.page.server.host_origin import LOOPBACK, hosts_for
+from ai4u_edu.page.server.host_origin import LOOPBACK, hosts_for, is_loopback
 from ai4u_edu.page.server.limits.timeouts import Timeouts
 from ai4u_edu.page.server.scripts import Rules
 from ai4u_edu.page.server.serve import ServerThread, serve
@@ -21,6 +21,7 @@ __all__ = [
     "ServerThread",
     "Timeouts",
     "hosts_for",
+    "is_loopback",
     "lock_viser_port",
     "open_on_desktop",
     "room_app",

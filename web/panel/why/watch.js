@@ -30,7 +30,7 @@ export class Watch {
   #next = "";
   #watch = button(WATCH, () => (this.isOn ? this.stop() : this.start()), { icon: "brain" });
   #beat = button(t("Beat it!"), () => this.beat(), { icon: "race", title: t("Drive against the network's ghost, from the same start") });
-  #against = button(t("Let it race me"), () => this.start(true), { title: t("The network drives against the ghost of your best drive") });
+  #against = button(t("Let it race me"), () => this.start(true), {});
   #networks = choice(t("Network"), (name) => (this.#network = name));
   element = element(
     "div",
@@ -94,7 +94,8 @@ export class Watch {
     // in a class, the teacher decides what drives
     this.element.hidden = networks.length === 0 || roomOfPage() !== "";
     setText(this.#watch.querySelector("span"), this.isOn ? STOP : WATCH);
-    this.#against.hidden = !hasDrive;
+    this.#against.disabled = !hasDrive;
+    this.#against.title = hasDrive ? t("The network drives against the ghost of your best drive") : t("Drive once yourself, and it can race you");
     if (!networks.some(({ name }) => name === this.#network)) this.#network = networks[0]?.name ?? "";
     this.#networks.element.hidden = networks.length < 2;
     this.#networks.set(networks.map(({ name, title }) => ({ value: name, text: title })), this.#network);
