@@ -49,6 +49,11 @@ class Assignments:
         """Return a room's assignment; an empty one if nothing is assigned."""
         return self._by_room.get(room) or self._by_room.get(EVERY_ROOM, NONE)
 
+    def forget(self, rooms: Iterable[str]) -> None:
+        """Forget rooms that were deleted."""
+        for room in rooms:
+            self._by_room.pop(room, None)
+
     def assign_race(self, scene: AssignedScene, race: str) -> None:
         """Store a race's scene for students who come later; rooms that know the race have it.
 

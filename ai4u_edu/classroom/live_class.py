@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Literal
@@ -27,7 +27,7 @@ from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, SeatState
-from ai4u_edu.classroom.store import ClassStore, SeatRow
+from ai4u_edu.classroom.store import PRESENT_ROOM, ClassStore, SeatRow
 from ai4u_edu.classroom.task_queue import TaskQueue
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
 from ai4u_edu.classroom.trainings import Trainings
@@ -54,8 +54,6 @@ TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
 SWITCHES = "switches"
-PRESENT_ROOM = "present_room_"
-"""Beginning of the name of a setting with the room that a seat used last."""
 ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
 
 
@@ -379,6 +377,18 @@ class LiveClass:
             link, room.link = room.link, None
             if link is not None:
                 link.end(sentence)
+
+    def forget(self, seat: int, rooms: Collection[str]) -> None:
+        """Forget a seat and its rooms, after they were deleted."""
+        for room in rooms:
+            self.rooms.pop(room, None)
+            self._wrong.pop(room, None)
+        for each in (self.progress, self.program_runs, self.stars, self.missions):
+            each.forget(seat)
+        for part in (self.assignments, self.races):
+            part.forget(rooms)
+        self.race.note_results()
+        self.tell_people()
 
     def begin_anew(self) -> None:
         """Forget all states, after everything was deleted."""

@@ -162,6 +162,11 @@ class ClassMissions:
                 self._since[seat] = self._clock()
         return is_more or self._places.get(seat) != before
 
+    def forget(self, seat: int) -> None:
+        """Forget a seat that was deleted."""
+        for part in (self._of, self._places, self._since):
+            part.pop(seat, None)
+
     def arrived(self, seat: int) -> None:
         """Note that a seat has come (back): its time at a step counts from now."""
         self._since[seat] = self._clock()

@@ -156,6 +156,10 @@ class MoveCodes:
             for each in self._codes.values()
         )
 
+    def cancel(self, seat: int) -> None:
+        """Make the code of a seat void."""
+        self._codes = {code: each for code, each in self._codes.items() if each.seat != seat}
+
     def clear(self) -> None:
         """Make all codes void."""
         self._codes.clear()

@@ -281,6 +281,14 @@ class ProgramRuns:
             seats = self._mistakes[run.kind]
             seats[seat] = seats.get(seat, (0, ""))[0] + 1, run.text
 
+    def forget(self, seat: int) -> None:
+        """Forget a seat that was deleted."""
+        self._runs.pop(seat, None)
+        for kind in [kind for kind, seats in self._mistakes.items() if seat in seats]:
+            del self._mistakes[kind][seat]
+            if not self._mistakes[kind]:
+                del self._mistakes[kind]
+
     def mistake_of(self, seat: int) -> str:
         """Return the mistake that stopped a seat's program; empty if none did."""
         run = self._runs.get(seat)
@@ -358,6 +366,10 @@ class Stars:
     def note(self, seat: int, scene: str, count: int) -> None:
         """Take over stars that are on disk."""
         self._of[seat][scene] = max(count, self._of[seat].get(scene, 0))
+
+    def forget(self, seat: int) -> None:
+        """Forget a seat that was deleted."""
+        self._of.pop(seat, None)
 
     def of_seat(self, seat: int) -> dict[str, int]:
         """Return the stars of a seat by scene."""

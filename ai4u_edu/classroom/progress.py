@@ -72,6 +72,13 @@ class Progress:
             {cast("Mistake", tuple(key)): count for *key, count in rows}
         )
 
+    def forget(self, seat: int) -> None:
+        """Forget a seat that was deleted."""
+        self._seen.pop(seat, None)
+        self.entries = {key: each for key, each in self.entries.items() if key[0] != seat}
+        kept = {key: count for key, count in self.mistakes.items() if key[0] != seat}
+        self.mistakes = Counter(kept)
+
     def begin(self, seat: int) -> None:
         """Note that a seat has arrived: its time counts from now."""
         self._seen[seat] = self._clock()

@@ -4,7 +4,7 @@ import asyncio
 import secrets
 import sqlite3
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -199,6 +199,18 @@ class Races:
     def path_of(self, race: str, key: str) -> Path:
         """Return the path of an episode's file."""
         return self._store.folder / FOLDER / race / f"{key}.episode"
+
+    def delete_episodes(self, rooms: Iterable[str]) -> None:
+        """Delete the episodes of rooms, in all races; a thread may do it."""
+        for room in rooms:
+            for race, key in self._store.query(
+                "select race, key from race_results where room = ?", [room]
+            ):
+                self.path_of(race, key).unlink(missing_ok=True)
+
+    def forget(self, rooms: Collection[str]) -> None:
+        """Forget rooms that were deleted."""
+        self.results = {key: each for key, each in self.results.items() if each.room not in rooms}
 
     @property
     def has_open_claims(self) -> bool:

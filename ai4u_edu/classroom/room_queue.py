@@ -100,14 +100,24 @@ class RoomQueue(ABC, Generic[RowT, StateT]):
         if self._task is None and self._open():
             self._task = asyncio.create_task(self._work())
 
+    async def delete(self, room: str) -> None:
+        """End the processes of a room and forget its rows, because it will be deleted."""
+        rows = [row for row in self._rows.values() if row.room == room]
+        self._rows = {key: row for key, row in self._rows.items() if row not in rows}
+        await self._end_all(rows)
+        self._place()
+
     async def end(self) -> None:
         """End all processes and forget everything in memory, because it will be deleted."""
         rows, self._rows = [*self._rows.values()], {}
+        await self._end_all(rows)
+        if self._task is not None:
+            await asyncio.gather(self._task, return_exceptions=True)
+
+    async def _end_all(self, rows: list[RowT]) -> None:
         for row in rows:
             row.is_ending = True
             await asyncio.to_thread(self._end_process, row)
-        if self._task is not None:
-            await asyncio.gather(self._task, return_exceptions=True)
 
     async def _take(self, row: RowT, too_many: str) -> None:
         """Take a new row, or refuse it: if the disk is full, or with a sentence about too many."""

@@ -4,7 +4,7 @@ import hashlib
 import secrets
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -375,6 +375,19 @@ class Seats:
         """Return True while a code of a seat can be used; see :meth:`new_move_code`."""
         with self._lock:
             return self._move_codes.is_open(number)
+
+    def delete(self, number: int, rooms: Collection[str]) -> None:
+        """Delete a seat with its work, and rooms that nobody else has; a thread may do it.
+
+        Raises:
+            JoinError: there is no such seat.
+            StoreError: it can't be deleted; then nothing has changed.
+        """
+        with self._lock:
+            seat = self._known(number)
+            self._store.delete_seat(seat, rooms)
+            self._move_codes.cancel(number)
+            self._forget_seat(seat)
 
     def set_state(self, number: int, state: SeatState) -> None:
         """Store that somebody left, was kicked (and may join again) or banned.

@@ -6,6 +6,7 @@ own them, through :meth:`ClassStore.query` and :meth:`ClassStore.transaction`.
 
 import logging
 import os
+import shutil
 import sqlite3
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -36,6 +37,8 @@ TEACHER_SETTING = "teacher_token"
 VERSION = 13
 """Version of the tables; a file of a later one is not opened, and neither is one from which
 :data:`_STEPS` do not lead here."""
+PRESENT_ROOM = "present_room_"
+"""Beginning of the name of a setting with the room that a seat used last."""
 _MISSION_TABLES = """create table missions (
     seat integer not null references seats (number),
     mission text not null,
@@ -380,6 +383,54 @@ class ClassStore:
             )
         return True
 
+    def delete_seat(self, seat: SeatRow, rooms: Iterable[str]) -> None:
+        """Delete everything of a seat and of rooms, so that nobody can read it from the file.
+
+        Raises:
+            StoreError: it can't be deleted; then nothing has changed.
+        """
+        with self.transaction() as database:
+            database.execute("pragma defer_foreign_keys = on")
+            columns = database.execute(
+                "select t.name, c.name from pragma_table_list t, pragma_table_info(t.name) c "
+                "where t.schema = 'main' and t.type = 'table' and c.name in ('seat', 'room') "
+                "and t.name <> 'seats'"
+            ).fetchall()
+            for table, column in columns:  # of later tables, too
+                values = [(seat.number,)] if column == "seat" else [(room,) for room in rooms]
+                delete = f"delete from {table} where {column} = ?"  # noqa: S608 - ours
+                database.executemany(delete, values)
+            database.execute("delete from seats where number = ?", [seat.number])
+            database.executemany("delete from rooms where id = ?", [(room,) for room in rooms])
+            present = f"{PRESENT_ROOM}{seat.number}"
+            database.execute("delete from settings where name = ?", [present])
+        self._empty_log()
+
+    def delete_folders(self, *names: str) -> None:
+        """Delete folders of the class's folder that are there.
+
+        Raises:
+            StoreError: one can't be deleted.
+        """
+        for name in names:
+            folder = self.folder / name
+            try:
+                if folder.exists():
+                    shutil.rmtree(folder)
+            except OSError as error:
+                raise StoreError(
+                    _(
+                        "{folder} can't be deleted: {reason}. Delete it yourself.",
+                        folder=str(folder),
+                        reason=reason(error),
+                    )
+                ) from None
+
+    def _empty_log(self) -> None:
+        """Empty the write-ahead log, which has pages as they were before."""
+        with self._lock:
+            self._database.execute("pragma wal_checkpoint(truncate)").fetchall()
+
     def query(self, sql: str, values: Sequence[object] = ()) -> list[tuple[Any, ...]]:
         """Return the rows of a query.
 
@@ -432,6 +483,7 @@ def _opened(path: Path) -> sqlite3.Connection:
         # with WAL, less than full may lose the last commits at a power cut
         database.execute("pragma synchronous = full")
         database.execute("pragma foreign_keys = on")
+        database.execute("pragma secure_delete = on")  # what is deleted is overwritten
         (version,) = database.execute("pragma user_version").fetchone()
         # in one transaction: after a kill in the middle, the next start makes the tables
         if version == 0:

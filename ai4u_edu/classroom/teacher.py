@@ -3,7 +3,6 @@
 import asyncio
 import io
 import secrets
-import shutil
 from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, Any, Literal
@@ -22,20 +21,17 @@ from ai4u_edu.classroom.assignments import AssignedScene
 from ai4u_edu.classroom.attention import MAX_SECONDS
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.course_index import course_lessons
+from ai4u_edu.classroom.deletion import delete_class, delete_seat
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.join import NO_STORE, problem
 from ai4u_edu.classroom.live_class import LiveClass, ShownKind
 from ai4u_edu.classroom.missions import MAX_NAME_CHARS
 from ai4u_edu.classroom.names import MOVE_CODE_LIFE_S
-from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.room_proxy import RoomProxy
 from ai4u_edu.classroom.room_queue import STOPPED_BY_TEACHER
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import SeatState
-from ai4u_edu.classroom.store import TEACHER_SETTING
-from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.runner import System
-from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.classroom.work_zip import class_zip, zip_response
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.errors import ChangeError
@@ -100,9 +96,9 @@ class _Command(BaseModel):
 
 
 class _SeatCommand(_Command):
-    """Send a seat out, ban it, or give it another name."""
+    """Send a seat out, ban it, give it another name, or delete everything of it."""
 
-    do: Literal["kick", "ban", "rename"]
+    do: Literal["kick", "ban", "rename", "forget seat"]
     seat: int
     name: str = Field(default="", max_length=60)
     new_code: bool = False
@@ -363,6 +359,9 @@ class Teacher:
             case "rename":
                 await asyncio.to_thread(self._seats.rename, wanted.seat, wanted.name)
                 return
+            case "forget seat":
+                await delete_seat(self._live, self._proxy, wanted.seat)
+                return
             case "kick":
                 await asyncio.to_thread(self._seats.set_state, wanted.seat, SeatState.KICKED)
             case "ban":
@@ -387,7 +386,7 @@ class Teacher:
             case "close tournament":
                 await self._live.tournament.dismiss()
             case "forget":
-                await _forget(self._live, self._proxy)
+                await delete_class(self._live, self._proxy)
             case "end race":
                 if races.now is not None and races.now.phase != "over":
                     races.change(phase="over")
@@ -516,50 +515,6 @@ def _hand_out(live: LiveClass, room: str, scene: str, number: int, others: list[
     except OSError as error:
         text = _("network: it can't be handed out: {reason}", reason=reason(error))
         raise CommandError(text) from None
-
-
-async def _forget(live: LiveClass, proxy: RoomProxy) -> None:
-    """Delete everything of a class but the secret of the teacher's page, and set a new code.
-
-    Nothing of seats, tokens, names and addresses is left in the folder; the file with the tables
-    is made again, since deleted rows may be read from one.
-
-    Raises:
-        StoreError: something can't be deleted; the class goes on without what is deleted already.
-    """
-    rooms, seats = list(live.seats.scenes()), live.seats.all()
-    live.seats.let_nobody_in()  # else a page that comes back would start its room again
-    live.end_all_links(_("The class is over, and your teacher has deleted everything of it."))
-    for seat in seats:
-        proxy.end(seat.number, _("the class is over"))
-    await asyncio.gather(*(live.host.end(each) for each in rooms))
-    await live.results.finish()
-    await live.tournament.end()
-    await live.trainings.end()
-    await live.practices.end()
-    await live.tasks.end()
-    live.attention.end()  # so that no message of the teacher is saved again
-    await asyncio.to_thread(_delete, live)
-    live.begin_anew()
-
-
-def _delete(live: LiveClass) -> None:
-    token = live.store.setting(TEACHER_SETTING)
-    live.seats.begin_anew()
-    live.store.set_setting(TEACHER_SETTING, token)
-    for name in ("rooms", RACES, NETWORKS, TOURNAMENTS):
-        folder = live.store.folder / name
-        try:
-            if folder.exists():
-                shutil.rmtree(folder)
-        except OSError as error:
-            raise StoreError(
-                _(
-                    "{folder} can't be deleted: {reason}. Delete it yourself.",
-                    folder=str(folder),
-                    reason=reason(error),
-                )
-            ) from None
 
 
 def join_code(address: str, code: str) -> str:

@@ -139,6 +139,14 @@ class Trainings:
         if self._working is None and self._line():
             self._working = asyncio.create_task(self._work())
 
+    async def delete(self, room: str) -> None:
+        """End a room's training and forget it, because the room will be deleted."""
+        self._rows.pop(room, None)
+        while self._running is not None and self._running[0].room == room:
+            await asyncio.sleep(POLL_S)  # its process ends, and writes nothing more
+        for other in self._line():  # all move up
+            self._tell_room(other.room)
+
     async def end(self) -> None:
         """End what learns and forget everything in memory, because it will be deleted."""
         self._rows = {}

@@ -188,6 +188,36 @@ def test_a_ban_sets_a_new_code_unless_the_teacher_keeps_it(page: Page, school: W
         assert school.commands[-1] == {"do": "ban", "seat": seat, "new_code": not keeps}
 
 
+def test_a_seat_is_forgotten_with_its_real_name(page: Page, school: WallServer) -> None:
+    here, gone = school.state["seats"][0], {**school.state["seats"][1], "state": "banned"}
+    school.send(seats=[here, gone, *school.state["seats"][2:]])
+    load_names(page, f"{here['name']},Ada Lovelace\n{gone['number']},Grace Hopper\n9,Alan Turing\n")
+    page.get_by_text("No longer here (1)").click()
+    page.get_by_role("button", name=f"Forget {gone['name']}").click()
+    question = page.get_by_role("dialog", name=f"Forget {gone['name']}?")
+    question.get_by_role("button", name="Cancel").click()
+    assert school.commands == []
+    page.get_by_role("button", name=f"Forget {gone['name']}").click()
+    question.get_by_role("button", name="Forget").click()
+    page.get_by_role("button", name="Ada Lovelace").click()
+    page.get_by_role("button", name=f"Forget {here['name']}").click()
+    page.get_by_role("button", name="Forget", exact=True).click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    forgotten = [{"do": "forget seat", "seat": seat["number"]} for seat in (gone, here)]
+    assert school.commands == forgotten
+    stored = page.evaluate("localStorage.getItem('ai4u-real-names')")
+    assert json.loads(stored) == {"9": "Alan Turing"}
+
+
+def load_names(page: Page, table: str) -> None:
+    """Load real names in the teacher's page, from lines of a table."""
+    page.get_by_role("button", name="Real names…").click()
+    file = {"name": "class.csv", "mimeType": "text/csv", "buffer": table.encode()}
+    dialog = page.get_by_role("dialog", name="Real names")
+    dialog.get_by_label("Table").set_input_files(file)  # type: ignore[arg-type]
+    dialog.get_by_role("button", name="Load").click()
+
+
 def test_the_teacher_gets_a_code_for_a_seat_that_is_gone(page: Page, school: WallServer) -> None:
     gone = {**school.state["seats"][0], "state": "banned"}
     school.answer = {"code": "KVBTM", "minutes": 5}
@@ -381,12 +411,7 @@ def test_the_teacher_sees_who_is_where_in_the_missions(page: Page, school: WallS
 def test_real_names_are_shown_and_never_sent(page: Page, school: WallServer) -> None:
     requests: list[str] = []
     page.on("request", lambda each: requests.append(f"{each.url} {each.post_data} {each.headers}"))
-    page.get_by_role("button", name="Real names…").click()
-    table = f'name,real name\n"{name_of(1)}","{REAL_NAME}"\n2;Grace Hopper\n'
-    file = {"name": "class.csv", "mimeType": "text/csv", "buffer": table.encode()}
-    dialog = page.get_by_role("dialog", name="Real names")
-    dialog.get_by_label("Table").set_input_files(file)  # type: ignore[arg-type]
-    dialog.get_by_role("button", name="Load").click()
+    load_names(page, f'name,real name\n"{name_of(1)}","{REAL_NAME}"\n2;Grace Hopper\n')
     expect(page.get_by_role("button", name=f"{name_of(1)}, {REAL_NAME}")).to_be_visible()
     page.get_by_role("button", name="Grace Hopper").click()
     page.get_by_role("button", name="Show to all").click()

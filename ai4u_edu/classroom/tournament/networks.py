@@ -84,6 +84,20 @@ class Networks:
         with self._lock:
             self.rows = ()
 
+    def delete(self, seat: int) -> None:
+        """Delete the networks of a seat.
+
+        Raises:
+            StoreError: they can't be deleted; then nothing has changed.
+        """
+        with self._lock:
+            gone = [each for each in self.rows if each.seat == seat]
+            with self._store.transaction() as database:
+                _delete(database, gone)
+            self.rows = tuple(each for each in self.rows if each not in gone)
+            for each in gone:
+                self._unlink(each)
+
     def add(
         self, seat: int, scene: str, part: str, file: str, data: bytes, request: str = ""
     ) -> bool:

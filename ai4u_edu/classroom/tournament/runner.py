@@ -118,7 +118,7 @@ class TournamentRunner:
         """
         known = (await asyncio.to_thread(network_scenes)).get(scene)
         async with self._lock:
-            self._refuse_while_running()
+            self.refuse_while_running()
             if known is None:
                 text = _("scene: expected one of the library, got {scene!r}", scene=scene[:40])
                 raise CommandError(text)
@@ -137,7 +137,7 @@ class TournamentRunner:
             StoreError: it can't be stored.
         """
         async with self._lock:
-            row = self._refuse_while_running()
+            row = self.refuse_while_running()
             if row is None:
                 raise CommandError(_("There is no tournament: choose its scene first."))
             if missing := missing_extras():
@@ -179,7 +179,7 @@ class TournamentRunner:
             StoreError: it can't be stored.
         """
         async with self._lock:
-            self._refuse_while_running()
+            self.refuse_while_running()
             self.tournaments.dismiss()
 
     async def end(self) -> None:
@@ -194,12 +194,39 @@ class TournamentRunner:
             if played is not None:
                 await asyncio.to_thread(played.end)
 
-    def _refuse_while_running(self) -> TournamentRow | None:
+    async def delete(self, seat: int) -> None:
+        """Delete a seat's networks, and the tournaments that they have played in.
+
+        Raises:
+            CommandError: one is played now.
+            StoreError: they can't be deleted.
+        """
+        async with self._lock:
+            self.refuse_while_running()
+            now = self.tournaments.now
+            await asyncio.to_thread(self._delete, seat)
+            if self.tournaments.now is not now:
+                self._ended_view, self.seats = None, {}
+
+    def refuse_while_running(self) -> TournamentRow | None:
+        """Return the present tournament.
+
+        Raises:
+            CommandError: it is played now.
+        """
         row = self.tournaments.now
         if row is not None and row.phase == "running":
             text = _("A tournament is played now. Wait for its end, or cancel it first.")
             raise CommandError(text)
         return row
+
+    def _delete(self, seat: int) -> None:
+        self.networks.delete(seat)
+        self.tournaments.delete(
+            row
+            for row in self.tournaments.all()
+            if seat in _seats_of(self.tournaments.work_of(row)).values()
+        )
 
     # -- tasks -------------------------------------------------------------------------------------
 

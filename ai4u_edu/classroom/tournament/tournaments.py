@@ -1,6 +1,7 @@
 """The present tournament of a class, as it is stored."""
 
 import secrets
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -83,6 +84,22 @@ class Tournaments:
                 (phase, problem, row.id),
             )
         self.now = row
+
+    def delete(self, rows: Iterable[TournamentRow]) -> None:
+        """Delete tournaments with their results; a thread may do it.
+
+        Raises:
+            StoreError: one can't be deleted.
+        """
+        for row in rows:
+            names = [f"{FOLDER}/{path.name}" for path in (self.folder_of(row), self.work_of(row))]
+            self._store.delete_folders(*names)
+            if row == self.now:
+                self.now = None
+            with self._store.transaction() as database:
+                database.execute("delete from tournaments where id = ?", [row.id])
+        if self.now is None and (left := self.all()):  # none of before is shown again
+            self._store.set_setting(DISMISSED, left[-1].id)
 
     def dismiss(self) -> None:
         """Show no tournament any more; its results stay in the store.

@@ -1,9 +1,11 @@
 /** The head of the teacher's page: how to join, small while a class runs, large while it gathers. */
 
 /** @import { ClassState, Seat } from "../../types/class.js" */
+/** @import { RealNames } from "./real_names.js" */
 
 import { commandOrTell } from "./command.js";
 import { element, find, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { showForget } from "./forget_dialog.js";
 import { showMoveCode } from "./move_code_dialog.js";
 import { ask } from "../../shared/dialog.js";
 import { t } from "../../shared/text.js";
@@ -22,8 +24,11 @@ export class JoinHeader {
    */
   #isLarge = null;
   #hasPeople = false;
+  #realNames;
 
-  constructor() {
+  /** @param {RealNames} realNames */
+  constructor(realNames) {
+    this.#realNames = realNames;
     find("#new-code").addEventListener("click", async () => {
       const text = t("Students who are here stay. Whoever comes later needs the new code.");
       if (await ask({ title: t("A new code?"), text, yes: t("New code") })) await commandOrTell({ do: "new code" });
@@ -48,7 +53,7 @@ export class JoinHeader {
     find("#qr").hidden = false;
     find("#open").setAttribute("aria-pressed", String(!state.open));
     setText(find("#count"), here.length ? `(${here.length})` : "");
-    showGone(state.seats.filter((seat) => seat.state !== "in"), Boolean(state.code));
+    showGone(state.seats.filter((seat) => seat.state !== "in"), Boolean(state.code), this.#realNames);
     this.#resize();
   }
 
@@ -67,8 +72,9 @@ export class JoinHeader {
  * Show who was here, with a way back where seats have codes.
  * @param {Seat[]} seats
  * @param {boolean} hasCodes
+ * @param {RealNames} realNames
  */
-function showGone(seats, hasCodes) {
+function showGone(seats, hasCodes, realNames) {
   const gone = find("#gone");
   gone.hidden = seats.length === 0;
   setText(gone.querySelector("summary"), t("No longer here ({count})", { count: seats.length }));
@@ -76,7 +82,10 @@ function showGone(seats, hasCodes) {
     const code = element("button", { type: "button", className: "ai4u-plain", textContent: t("Code…"), hidden: !hasCodes });
     code.setAttribute("aria-label", t("Code for {name}", { name: seat.name }));
     code.addEventListener("click", () => showMoveCode(seat));
-    return element("li", {}, element("span", { className: "ai4u-name" }), " ", element("span", { className: "ai4u-facts" }), " ", code);
+    const forget = element("button", { type: "button", className: "ai4u-plain", textContent: t("Forget…") });
+    forget.setAttribute("aria-label", t("Forget {name}", { name: seat.name }));
+    forget.addEventListener("click", () => showForget(seat, realNames));
+    return element("li", {}, element("span", { className: "ai4u-name" }), " ", element("span", { className: "ai4u-facts" }), " ", code, " ", forget);
   };
   keyed(gone.querySelector("ul"), seats, (seat) => seat.number, make, (item, seat) => {
     setText(item.firstElementChild, seat.name);

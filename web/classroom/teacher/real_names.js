@@ -44,6 +44,17 @@ export class RealNames {
     this.onchange();
   }
 
+  /**
+   * Forget the real name of a seat that was deleted: another one may get its number.
+   * @param {Pick<Seat, "number" | "name">} seat
+   */
+  forgetSeat(seat) {
+    delete this.#names[seat.number];
+    delete this.#names[keyOf(seat.name)];
+    remember(STORAGE_KEY, this.#names);
+    this.onchange();
+  }
+
   forget() {
     this.#names = {};
     forget(STORAGE_KEY);

@@ -9,6 +9,7 @@ import { showAssign } from "./assign_dialog.js";
 import { command, commandOrTell } from "./command.js";
 import { element } from "../../shared/dom.js";
 import { choices, chosenIn, closeDialogOf, showForm } from "../../shared/form_dialog.js";
+import { showForget } from "./forget_dialog.js";
 import { showMoveCode } from "./move_code_dialog.js";
 import { ask, tell } from "../../shared/dialog.js";
 import { t, tn } from "../../shared/text.js";
@@ -131,11 +132,16 @@ function person(seat, realNames, hasCodes) {
     closeDialogOf(button);
     await showMoveCode(seat);
   });
+  const forget = action(t("Forget…"), async (button) => {
+    closeDialogOf(button);
+    await showForget(seat, realNames);
+  });
   move.hidden = !hasCodes;
   rename.ariaLabel = t("Rename {name}", { name });
   move.ariaLabel = t("Code for {name}", { name });
   kick.ariaLabel = t("Send out {name}", { name });
   ban.ariaLabel = t("Ban {name}", { name });
+  forget.ariaLabel = t("Forget {name}", { name });
   const real = realNames.of(seat);
   return element(
     "li",
@@ -143,7 +149,7 @@ function person(seat, realNames, hasCodes) {
     dot,
     element("span", { className: "ai4u-name", textContent: name }),
     element("span", { className: "ai4u-facts", textContent: [real, seat.is_here ? "" : t("page closed")].filter(Boolean).join(" · ") }),
-    element("span", { className: "ai4u-actions" }, rename, move, kick, ban),
+    element("span", { className: "ai4u-actions" }, rename, move, kick, ban, forget),
   );
 }
 

@@ -47,7 +47,7 @@ const wall = new Wall(find("#wall"), {
   onOpen: (id) => showRoom(state.rooms.find((room) => room.id === id), state, realNames),
   heightLeft: () => Math.max(MIN_WALL_PX, innerHeight - (find("#wall").getBoundingClientRect().top + scrollY) - BOTTOM_PX),
 });
-const header = new JoinHeader();
+const header = new JoinHeader(realNames);
 const strips = new ClassStrips(find("#held"), find("#running-race"));
 const progress = new ProgressTable(find("#view-progress"), realNames);
 const misconceptions = new Misconceptions(find("#view-mistakes"), realNames);
