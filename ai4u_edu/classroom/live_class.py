@@ -22,14 +22,17 @@ from ai4u_edu.classroom.missions import ClassMissions
 from ai4u_edu.classroom.practice_queue import PracticeQueue
 from ai4u_edu.classroom.programs import ProgramRuns, Programs, Stars
 from ai4u_edu.classroom.progress import Progress
+from ai4u_edu.classroom.race import FOLDER as RACES
 from ai4u_edu.classroom.race import RaceRunner, Races
 from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, SeatState
-from ai4u_edu.classroom.store import PRESENT_ROOM, ClassStore, SeatRow
+from ai4u_edu.classroom.store import PRESENT_ROOM, TEACHER_SETTING, ClassStore, SeatRow
 from ai4u_edu.classroom.task_queue import TaskQueue
+from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
+from ai4u_edu.classroom.tournament.tournaments import FOLDER as TOURNAMENTS
 from ai4u_edu.classroom.trainings import Trainings
 from ai4u_edu.games.jobs.processes import core_count
 from ai4u_edu.locale import gettext as _
@@ -54,6 +57,10 @@ TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
 SWITCHES = "switches"
+ROOMS = "rooms"
+"""Folder with a folder for each room."""
+EndSockets = Callable[[int, str], object]
+"""Ends the sockets of a seat's pages, for a reason."""
 ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
 
 
@@ -185,7 +192,7 @@ class LiveClass:
             exercise, diagnosis, live.wrong = self._wrong.get(room, ("", "", 0))
             live.wrong_answer = exercise, diagnosis
             if not seat:
-                live.note_counts(read_counts(self.store.folder / "rooms" / room))
+                live.note_counts(read_counts(self.store.folder / ROOMS / room))
         return self.rooms[room]
 
     def seats_of(self, room: LiveRoom) -> list[SeatRow]:
@@ -351,7 +358,7 @@ class LiveClass:
                     self.store.set_setting(f"{PRESENT_ROOM}{seat.number}", room.id)
             if room.seat:
                 self.store.quota.check()
-                folder = self.store.folder / "rooms" / room.id
+                folder = self.store.folder / ROOMS / room.id
                 folder.mkdir(parents=True, exist_ok=True)
                 write_atomically(folder / SCENE_FILE, work.scene)
 
@@ -378,8 +385,83 @@ class LiveClass:
             if link is not None:
                 link.end(sentence)
 
-    def forget(self, seat: int, rooms: Collection[str]) -> None:
-        """Forget a seat and its rooms, after they were deleted."""
+    async def delete_all(self, end_sockets: EndSockets) -> None:
+        """Delete everything but the secret of the teacher's page, and set a new code.
+
+        Nothing of seats, tokens, names and addresses is left in the folder; the file with the
+        tables is made again, since deleted rows may be read from one.
+
+        Args:
+            end_sockets: ends those of a seat's pages, for a reason.
+
+        Raises:
+            StoreError: something can't be deleted; the class goes on without what is deleted.
+        """
+        rooms, seats = list(self.seats.scenes()), self.seats.all()
+        self.seats.let_nobody_in()  # else a page that comes back would start its room again
+        self.end_all_links(_("The class is over, and your teacher has deleted everything of it."))
+        for seat in seats:
+            end_sockets(seat.number, _("the class is over"))
+        await asyncio.gather(*(self.host.end(each) for each in rooms))
+        await self.results.finish()
+        await self.tournament.end()
+        await self.trainings.end()
+        await self.practices.end()
+        await self.tasks.end()
+        self.attention.end()  # so that no message of the teacher is saved again
+        await asyncio.to_thread(self._delete_files)
+        self._begin_anew()
+
+    async def delete_seat(self, number: int, end_sockets: EndSockets) -> None:
+        """Delete everything of a seat, and of its room if no other seat has that.
+
+        Tournaments that its networks have played in are deleted, too: their journals have the
+        games. What the teacher has handed out to others has no name, and stays.
+
+        Args:
+            number: of the seat.
+            end_sockets: as for :meth:`delete_all`.
+
+        Raises:
+            JoinError: there is no such seat.
+            CommandError: a tournament is played now.
+            StoreError: something can't be deleted; the seat is banned, and can be deleted again.
+        """
+        self.tournament.refuse_while_running()
+        # first, else a page that comes back would start its room again
+        await asyncio.to_thread(self.seats.set_state, number, SeatState.BANNED)
+        sentence = _("Your teacher has deleted this seat, with everything of it.")
+        end_sockets(number, sentence)
+        self.end_links(number, sentence)
+        (seat,) = (each for each in self.seats.all() if each.number == number)
+        rooms = [remote_id(number)]
+        if self.all_seats_of(seat.room) == [seat]:
+            rooms.append(seat.room)
+            await self.host.end(seat.room)
+        for room in rooms:
+            await self.trainings.delete(room)
+            await self.practices.delete(room)
+            await self.tasks.delete(room)
+        await self.results.finish()
+        await self.tournament.delete(number)
+        if self.shown.room in rooms:
+            self.show("join", "")
+        await asyncio.to_thread(self._delete_files_of, number, rooms)
+        self._forget(number, rooms)
+
+    def _delete_files(self) -> None:
+        token = self.store.setting(TEACHER_SETTING)
+        self.seats.begin_anew()
+        self.store.set_setting(TEACHER_SETTING, token)
+        self.store.delete_folders(ROOMS, RACES, NETWORKS, TOURNAMENTS)
+
+    def _delete_files_of(self, number: int, rooms: list[str]) -> None:
+        self.store.delete_folders(*(f"{ROOMS}/{room}" for room in rooms))
+        self.races.delete_episodes(rooms)
+        self.seats.delete(number, rooms)
+
+    def _forget(self, seat: int, rooms: Collection[str]) -> None:
+        """Forget a seat that was deleted, and its rooms."""
         for room in rooms:
             self.rooms.pop(room, None)
             self._wrong.pop(room, None)
@@ -390,7 +472,7 @@ class LiveClass:
         self.race.note_results()
         self.tell_people()
 
-    def begin_anew(self) -> None:
+    def _begin_anew(self) -> None:
         """Forget all states, after everything was deleted."""
         self.rooms.clear()
         self._wrong = {}

@@ -21,7 +21,6 @@ from ai4u_edu.classroom.assignments import AssignedScene
 from ai4u_edu.classroom.attention import MAX_SECONDS
 from ai4u_edu.classroom.class_event import ClassEvents
 from ai4u_edu.classroom.course_index import course_lessons
-from ai4u_edu.classroom.deletion import delete_class, delete_seat
 from ai4u_edu.classroom.errors import CommandError, JoinError, StoreError
 from ai4u_edu.classroom.join import NO_STORE, problem
 from ai4u_edu.classroom.live_class import LiveClass, ShownKind
@@ -360,7 +359,7 @@ class Teacher:
                 await asyncio.to_thread(self._seats.rename, wanted.seat, wanted.name)
                 return
             case "forget seat":
-                await delete_seat(self._live, self._proxy, wanted.seat)
+                await self._live.delete_seat(wanted.seat, self._proxy.end)
                 return
             case "kick":
                 await asyncio.to_thread(self._seats.set_state, wanted.seat, SeatState.KICKED)
@@ -386,7 +385,7 @@ class Teacher:
             case "close tournament":
                 await self._live.tournament.dismiss()
             case "forget":
-                await delete_class(self._live, self._proxy)
+                await self._live.delete_all(self._proxy.end)
             case "end race":
                 if races.now is not None and races.now.phase != "over":
                     races.change(phase="over")
