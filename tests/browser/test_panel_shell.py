@@ -198,14 +198,15 @@ def test_it_connects_again_and_looks_at_the_same(desk: PanelPage) -> None:
     desk.until(lambda: desk.panel.commands("pause") == [{}])
 
 
-@pytest.mark.parametrize(("width", "height"), [(844, 390), (390, 844)])
+@pytest.mark.parametrize(("width", "height"), [(844, 390), (390, 844), (568, 320)])
 def test_on_phones_it_is_folded_at_first_and_leaves_the_stick(
     chromium: Browser, room: Room, width: int, height: int
 ) -> None:
     with panel_page(chromium, room, width=width, height=height, has_touch=True) as phone:
         expect(phone.button("Pause")).to_be_hidden()
         phone.button("Open the panel").tap()
-        expect(phone.button("Pause")).to_be_in_viewport()
+        for name in ("Pause", "Fold the panel"):
+            expect(phone.button(name)).to_be_in_viewport(ratio=1)
         panel = phone.page.locator(".ai4u-panel").bounding_box()
         stick = phone.page.locator(".ai4u-stick").bounding_box()
         assert panel
@@ -215,7 +216,7 @@ def test_on_phones_it_is_folded_at_first_and_leaves_the_stick(
         assert stick["y"] + stick["height"] <= height
 
 
-@pytest.mark.parametrize(("width", "height"), [(390, 844), (844, 390)])
+@pytest.mark.parametrize(("width", "height"), [(390, 844), (844, 390), (568, 320)])
 def test_a_tab_that_is_chosen_on_a_phone_fills_the_panel(
     chromium: Browser, room: Room, width: int, height: int
 ) -> None:

@@ -9,7 +9,7 @@ import { element, setAttributes } from "../shared/dom.js";
 import { recall, remember } from "../shared/storage.js";
 import { t } from "../shared/text.js";
 
-const PHONE = matchMedia("(max-width: 576px)");
+const PHONE = matchMedia("(max-width: 576px) and (max-aspect-ratio: 3/2)");
 /** A phone on its side: the panel stands beside the canvas, but folded at first. */
 const LOW = matchMedia("(max-height: 500px)");
 const UPRIGHT = matchMedia("(orientation: portrait) and (max-width: 1000px)");
