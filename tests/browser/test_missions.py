@@ -397,7 +397,7 @@ def test_only_controls_that_exist_are_lit(chromium: Browser) -> None:
         return isLit;
       });
     })"""
-    with rooms.panel_room() as served:
+    with rooms.panel_room("draw_figure") as served:  # its pen has the space bar
         WITHOUT_VISER.serve(page, served.url)
         page.goto(served.url)
         served.runner.resume().result(LIMIT_S)
