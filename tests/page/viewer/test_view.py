@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from viser import CameraHandle
 
+from ai4u_edu import BasicAgent, BoxShape, CircleShape, ControlRequestor, LocalBrain, World
 from ai4u_edu.page.viewer import Viewer
 from ai4u_edu.page.viewer.scene.arena import camera_bounds
 from ai4u_edu.page.viewer.scene.framing import Frame, frame_arena, frame_point, frame_tilted
@@ -17,7 +18,7 @@ from ai4u_edu.page.viewer.scene.view import (
     View,
 )
 from ai4u_edu.runtime.runner import Runner
-from ai4u_edu.snapshot import Snapshot
+from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.page.viewer.pages import Page, page
 from tests.waiting import until
 
@@ -270,6 +271,24 @@ def test_a_tilted_camera_sees_the_whole_arena_before_a_sky(
     assert "/outside/void" not in nodes
     assert camera.fov < 0.1
     assert camera.up_direction == pytest.approx((0, 1, 0))
+
+
+@pytest.mark.parametrize("mode", [Mode.ARENA, Mode.TILTED, Mode.FOLLOW, Mode.EYES])
+def test_a_scene_of_another_size_is_shown(watched: Watched, runner: Runner, mode: Mode) -> None:
+    view, camera = watched.view, watched.camera
+    view.choose(mode)
+    for size in (10, 10_000, 0.1, 10_000):
+        world = World()
+        world.add_floor("plate", BoxShape(size=(size, size)))
+        world.add_body("robot", CircleShape(radius=size / 20), tags=("agent",))
+        agent = BasicAgent(body="robot", brains=[LocalBrain(controller=lambda _: {})])
+        sim = ControlRequestor(world, [agent])
+        sim.reset(1)
+        view.update(capture_snapshot(sim), "0")
+        distance = float(np.linalg.norm(camera.position - camera.look_at))
+        if mode is not Mode.EYES:
+            assert camera.min_orbit_distance < distance < camera.max_orbit_distance
+            assert camera.near < distance < camera.far
 
 
 def tilt(camera: CameraHandle) -> float:

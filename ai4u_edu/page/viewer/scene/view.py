@@ -100,6 +100,14 @@ class _Haze:
         self._scene.configure_fog(1.0, 2.0, enabled=False)
 
 
+def _limit_orbit(camera: CameraHandle, least: float, most: float) -> None:
+    """Limit the distance (m) to which a user may move the camera from what it looks at."""
+    if least > camera.max_orbit_distance:  # viser takes no range that is empty, not even for now
+        camera.max_orbit_distance = most
+    camera.min_orbit_distance = least
+    camera.max_orbit_distance = most
+
+
 def _eye_pose(
     static_scene: StaticScene, agent: AgentState, body: BodyState
 ) -> tuple[_Position, _Position]:
@@ -289,8 +297,7 @@ class View:
             camera.fov = TILTED_FIELD_OF_VIEW_RAD
             camera.near, camera.far = frame.distance / 40, frame.distance * 16
             zoom_in, zoom_out = TILTED_ZOOM
-            camera.min_orbit_distance = frame.distance / zoom_in
-            camera.max_orbit_distance = frame.distance * zoom_out
+            _limit_orbit(camera, frame.distance / zoom_in, frame.distance * zoom_out)
 
     def _note_sent(self, position: _Position) -> None:
         """Note that the camera is put somewhere, for it to be told from where a user puts it."""
@@ -315,7 +322,7 @@ class View:
             if is_new:
                 self._clear_sky()
                 self._sky = _Daylight(self._client.scene, snapshot.static_scene)
-                camera.min_orbit_distance, camera.max_orbit_distance = 0.01, 100.0
+                _limit_orbit(camera, 0.01, 100.0)
                 camera.up_direction = (0.0, 0.0, 1.0)
                 camera.fov = _EYE_FIELD_OF_VIEW_RAD
                 camera.near, camera.far = (
@@ -363,8 +370,7 @@ class View:
             camera.fov = FIELD_OF_VIEW_RAD
             camera.near, camera.far = wanted.near, wanted.far
             zoom_in, zoom_out = ZOOM
-            camera.min_orbit_distance = distance / zoom_in
-            camera.max_orbit_distance = distance * zoom_out
+            _limit_orbit(camera, distance / zoom_in, distance * zoom_out)
 
     def _follow(self, body: BodyState, aspect: float) -> None:
         camera, now, up = self._client.camera, self._clock(), self._up(body)
