@@ -1,8 +1,10 @@
 """The block that a stack of Python frames is in: for errors that name none, and endless loops."""
 
+import gc
 import os
 import sys
 import sysconfig
+import threading
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,6 +27,8 @@ KINDS: tuple[tuple[type[Block], Text], ...] = (
 """The kinds of blocks, with their names in a sentence."""
 NAME_FIELDS = ("perception_key", "action_name", "name")
 MAX_NAME_CHARS = 80
+_walking = threading.Lock()
+"""Held while frames are looked at, and no garbage is collected."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,14 +59,26 @@ class CodePlace:
 
 
 def frames_of_thread(thread_id: int) -> list[FrameType]:
-    """Return what a thread runs now, outermost call first; empty if it has ended."""
+    """Return what a thread runs now, outermost call first; empty if it has ended.
+
+    Python makes these objects when they are asked for, and may collect garbage then. Code that
+    runs meanwhile lets the other thread go on: CPython 3.11 reads frames that are gone then, or
+    waits for ever (CPython's issue 106883). So nothing is collected here.
+    """
     if not hasattr(sys, "_current_frames"):  # CPython has it; another Python may not
         return []
-    frame = sys._current_frames().get(thread_id)
     frames = []
-    while frame is not None:
-        frames.append(frame)
-        frame = frame.f_back
+    with _walking:
+        collects = gc.isenabled()
+        gc.disable()
+        try:
+            frame = sys._current_frames().get(thread_id)
+            while frame is not None:
+                frames.append(frame)
+                frame = frame.f_back
+        finally:
+            if collects:
+                gc.enable()
     return frames[::-1]
 
 

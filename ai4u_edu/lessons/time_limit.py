@@ -7,11 +7,11 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from types import FrameType, TracebackType
 from typing import Any, Self
 
-from ai4u_edu.agent.block_frames import line_at
+from ai4u_edu.agent.block_frames import frames_of_thread, line_at
 from ai4u_edu.base.syntax import parsed
 from ai4u_edu.lessons.student_errors import is_students, line_words
 from ai4u_edu.locale import Text
@@ -92,22 +92,26 @@ class TimeLimit:
         self._root = self._call = None
 
     def _on_signal(self, _number: int, frame: FrameType | None) -> None:
-        if not self._ended.is_set() and self._is_over(frame):
+        if not self._ended.is_set() and self._is_over(_calls_from(frame)):
             raise TimeLimitError
 
     def _watch(self, thread: int) -> None:
         while not self._ended.wait(SAMPLE_S):
-            frame = sys._current_frames().get(thread)
+            frames = frames_of_thread(thread)[::-1]
             with self._lock:
-                if not self._ended.is_set() and self._is_over(frame):
+                if not self._ended.is_set() and self._is_over(frames):
                     raise_in(thread, TimeLimitError)
-            del frame
+            del frames
 
-    def _is_over(self, frame: FrameType | None) -> bool:
-        """Look at the stack; return True if a call has taken too long."""
+    def _is_over(self, frames: Iterable[FrameType]) -> bool:
+        """Look at the stack; return True if a call has taken too long.
+
+        Args:
+            frames: of the thread, the innermost one first.
+        """
         now = time.monotonic()
         passed, self._last = now - self._last, now
-        calls = self._students_frames(frame)
+        calls = self._students_frames(frames)
         if not calls:
             self._call = None
             return False
@@ -131,14 +135,22 @@ class TimeLimit:
             self.diagnosis = "slow"
         return True
 
-    def _students_frames(self, frame: FrameType | None) -> list[FrameType]:
+    def _students_frames(self, frames: Iterable[FrameType]) -> list[FrameType]:
         """Return the student's frames since the context began, the innermost one first."""
-        found = []
-        while frame is not None and frame is not self._root:
+        found: list[FrameType] = []
+        for frame in frames:
+            if frame is self._root:
+                return found
             if is_students(frame.f_code.co_filename):
                 found.append(frame)
-            frame = frame.f_back
-        return found if frame is self._root else []
+        return []
+
+
+def _calls_from(frame: FrameType | None) -> Iterator[FrameType]:
+    """Yield a frame of this thread, and those that called it."""
+    while frame is not None:
+        yield frame
+        frame = frame.f_back
 
 
 def endless_call(calls: Sequence[FrameType], seconds: float) -> str:
