@@ -1,4 +1,4 @@
-"""What another thread runs is looked at while no garbage is collected."""
+"""Frames of another thread are looked at while no garbage is collected."""
 
 import gc
 import sys
