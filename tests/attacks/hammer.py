@@ -23,6 +23,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from websockets.sync.client import connect as open_socket
 from websockets.typing import Origin
 
+from ai4u_edu.agent.block_frames import frames_of_thread
 from ai4u_edu.base.errors import ActionError
 from ai4u_edu.remote import RemoteError, connect
 from tests.attacks.panel import Panel
@@ -211,8 +212,9 @@ def _has_blocks_error(server: Played) -> bool:
 
 def _stack(thread: threading.Thread) -> str:
     """The calls that a worker is in."""
-    frame = sys._current_frames().get(thread.ident or 0)
-    return "".join(traceback.format_stack(frame)[-8:])
+    frames = frames_of_thread(thread.ident or 0)[-8:]
+    calls = traceback.StackSummary.extract((frame, frame.f_lineno) for frame in frames)
+    return "".join(calls.format())
 
 
 def _summary(server: Played) -> dict[str, Any]:

@@ -57,6 +57,7 @@ def page(opened: Page, school: WallServer) -> Page:
     """Return the teacher's page of that class."""
     opened.mouse.move(5, 5)
     opened.evaluate("document.querySelectorAll('dialog').forEach((each) => each.close())")
+    opened.evaluate("document.querySelector('#gone').open = false")
     opened.evaluate("document.activeElement.blur()")
     opened.get_by_role("tab", name="Wall").click()
     opened.get_by_role("button", name="All", exact=False).first.click()

@@ -306,15 +306,6 @@ def test_what_lies_in_a_tab_has_the_way_there_lit() -> None:
                 )  # else it is not scrolled to
 
 
-def test_only_a_world_with_one_robot_is_asked_for_a_test() -> None:
-    """A world with several refuses new episodes for a test."""
-    for name, mission in MISSIONS.items():
-        if any(
-            "Test" in (*step.light, *re.findall(r"\*(\w+)\*", step.say)) for step in mission.steps
-        ):
-            assert len(Scene(Doing(name).scene).build().agents) == 1, name
-
-
 def test_missions_call_what_is_built_as_the_page_does() -> None:
     known = {*CONTROLS, *FIELD_LABELS.values(), *(words.title for words in BLOCK_WORDS.values())}
     known |= {"Sensor", "Reward", "W"}

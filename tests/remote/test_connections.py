@@ -4,7 +4,6 @@ import errno
 import signal
 import socket
 import struct
-import sys
 import threading
 from collections.abc import Callable
 from http import HTTPStatus
@@ -17,6 +16,7 @@ from websockets.protocol import State
 from websockets.server import ServerProtocol
 from websockets.sync.server import ServerConnection
 
+from ai4u_edu.agent.block_frames import frames_of_thread
 from ai4u_edu.remote.connection_options import OPTIONS, connection_lost_from
 from ai4u_edu.remote.steps import ConnectionLostError
 from tests.remote.bare_servers import Client, Kind, client, loss_of, raw_server, serving
@@ -80,7 +80,7 @@ def test_an_interrupted_script_may_go_on(kind: Kind) -> None:
     assert script is not None
 
     def interrupt_what_waits() -> None:
-        until(lambda: sys._current_frames()[script].f_code.co_name in ("get_next_frame", "select"))
+        until(lambda: frames_of_thread(script)[-1].f_code.co_name in ("get_next_frame", "select"))
         signal.pthread_kill(script, signal.SIGINT)
 
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
