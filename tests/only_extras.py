@@ -4,11 +4,10 @@ An environment adds up what was ever installed into it, and would hide that a te
 its tier promises.
 """
 
-import importlib.abc
 import re
 import sys
 from collections.abc import Iterator, Sequence
-from importlib.machinery import ModuleSpec
+from importlib.machinery import ModuleSpec, PathFinder
 from importlib.metadata import PackageNotFoundError, packages_distributions, requires
 from types import ModuleType
 
@@ -18,8 +17,11 @@ INSTALLERS = {"pip", "setuptools", "wheel"}
 """Packages of a new environment."""
 
 
-class OnlyExtras(importlib.abc.MetaPathFinder):
-    """Finder of modules that raises an error for those of other packages.
+class OnlyExtras(PathFinder):
+    """Python's finder of modules, which finds none of other packages.
+
+    Whoever imports such a module gets an error with advice; whoever only asks whether it is there,
+    by ``importlib.util.find_spec``, gets None, as where it is not installed.
 
     Args:
         extras: of this project.
@@ -37,23 +39,25 @@ class OnlyExtras(importlib.abc.MetaPathFinder):
 
     def install(self) -> None:
         """Refuse from now on what was not imported yet."""
-        sys.meta_path.insert(0, self)
+        sys.meta_path[sys.meta_path.index(PathFinder)] = self
 
-    def find_spec(
-        self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
+    def find_spec(  # type: ignore[override]
+        self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Raise an error for a refused module, and leave all others to the next finder.
+        """Return None or raise an error for a refused module; find all others.
 
         Raises:
             ModuleNotFoundError: the module comes with other extras.
         """
-        if name.partition(".")[0] in self.refused:
-            raise ModuleNotFoundError(
-                f"No module named {name!r} among the packages of [{self._extras}]; mark the test "
-                "with the extra that it needs: pytest.mark.needs(...)",
-                name=name,
-            )
-        return None
+        if name.partition(".")[0] not in self.refused:
+            return PathFinder.find_spec(name, path, target)
+        if sys._getframe(2).f_globals["__name__"] == "importlib.util":
+            return None
+        raise ModuleNotFoundError(
+            f"No module named {name!r} among the packages of [{self._extras}]; mark the test "
+            "with the extra that it needs: pytest.mark.needs(...)",
+            name=name,
+        )
 
 
 def _brought(
