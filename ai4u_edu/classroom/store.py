@@ -404,7 +404,7 @@ class ClassStore:
             database.executemany("delete from rooms where id = ?", [(room,) for room in rooms])
             present = f"{PRESENT_ROOM}{seat.number}"
             database.execute("delete from settings where name = ?", [present])
-        self._empty_log()
+        self.query("pragma wal_checkpoint(truncate)")  # the log has pages as they were before
 
     def delete_folders(self, *names: str) -> None:
         """Delete folders of the class's folder that are there.
@@ -425,11 +425,6 @@ class ClassStore:
                         reason=reason(error),
                     )
                 ) from None
-
-    def _empty_log(self) -> None:
-        """Empty the write-ahead log, which has pages as they were before."""
-        with self._lock:
-            self._database.execute("pragma wal_checkpoint(truncate)").fetchall()
 
     def query(self, sql: str, values: Sequence[object] = ()) -> list[tuple[Any, ...]]:
         """Return the rows of a query.

@@ -226,13 +226,15 @@ class IsPaid(Check):
 
     def fit(self, agent: BasicAgent) -> None:
         """Check that the agent is paid such a reward."""
-        names = [reward.name for reward in agent.rewards]
-        if self.reward and self.reward not in names:
+        wanted, known = self.reward, [reward.name for reward in agent.rewards]
+        if self.block:
+            wanted, known = self.block, [type(reward).__name__ for reward in agent.rewards]
+        if wanted not in known:
             raise SetupError(
                 _(
                     "the robot gets no reward {reward!r}; {hint}",
-                    reward=self.reward,
-                    hint=suggest(self.reward, names),
+                    reward=wanted,
+                    hint=suggest(wanted, known),
                 )
             )
 

@@ -100,6 +100,11 @@ def test_a_folder_has_limits(tmp_path: Path) -> None:
         ),
         (
             "{type: drives, metres: 2}",
+            "{type: is_paid, block: TouchRewrdFunc}",
+            "the robot gets no reward 'TouchRewrdFunc'; did you mean 'TouchRewardFunc'?",
+        ),
+        (
+            "{type: drives, metres: 2}",
             "{type: holds, ranges: [{what: heading, above: 1}]}",
             "write heading[0] to heading[1]",
         ),
