@@ -28,7 +28,7 @@ from ai4u_edu.classroom.result_writer import Received, ResultWriter
 from ai4u_edu.classroom.room_host import RoomHost
 from ai4u_edu.classroom.scene_file import NAME as SCENE_FILE
 from ai4u_edu.classroom.seats import Seats, SeatState
-from ai4u_edu.classroom.store import PRESENT_ROOM, TEACHER_SETTING, ClassStore, SeatRow
+from ai4u_edu.classroom.store import PRESENT_ROOM, ROOMS, TEACHER_SETTING, ClassStore, SeatRow
 from ai4u_edu.classroom.task_queue import TaskQueue
 from ai4u_edu.classroom.tournament.networks import FOLDER as NETWORKS
 from ai4u_edu.classroom.tournament.runner import TournamentRunner
@@ -57,8 +57,6 @@ TICK_S = 0.5
 """Interval at which ends of times are looked for."""
 SHOWN = "shown"
 SWITCHES = "switches"
-ROOMS = "rooms"
-"""Folder with a folder for each room."""
 EndSockets = Callable[[int, str], object]
 """Ends the sockets of a seat's pages, for a reason."""
 ShownKind = Literal["join", "room", "race", "tournament", "game", "board"]
@@ -192,7 +190,7 @@ class LiveClass:
             exercise, diagnosis, live.wrong = self._wrong.get(room, ("", "", 0))
             live.wrong_answer = exercise, diagnosis
             if not seat:
-                live.note_counts(read_counts(self.store.folder / ROOMS / room))
+                live.note_counts(read_counts(self.store.room_folder(room)))
         return self.rooms[room]
 
     def seats_of(self, room: LiveRoom) -> list[SeatRow]:
@@ -358,7 +356,7 @@ class LiveClass:
                     self.store.set_setting(f"{PRESENT_ROOM}{seat.number}", room.id)
             if room.seat:
                 self.store.quota.check()
-                folder = self.store.folder / ROOMS / room.id
+                folder = self.store.room_folder(room.id)
                 folder.mkdir(parents=True, exist_ok=True)
                 write_atomically(folder / SCENE_FILE, work.scene)
 

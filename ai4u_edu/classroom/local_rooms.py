@@ -30,6 +30,7 @@ from ai4u_edu.classroom.room_process import (
     run_room,
 )
 from ai4u_edu.classroom.room_watch import RoomLimits, RoomWatch
+from ai4u_edu.classroom.store import ROOMS
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
 from ai4u_edu.page.server.token_auth import is_same_secret
@@ -228,7 +229,7 @@ class LocalRooms:
     def _start(self, room: str, scene: str) -> _Running:
         ours, theirs = self._context.Pipe()
         token = self._secrets[room] = secrets.token_urlsafe(24)
-        folder = self._folder / "rooms" / room
+        folder = self._folder / ROOMS / room
         order = RoomOrder(
             room,
             scene,

@@ -199,7 +199,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
         name = row.state.practice
         if name != Path(name).name or name in ("", "..") or "\0" in name:
             raise FileNotFoundError
-        return self._store.folder.absolute() / "rooms" / row.room / PRACTICES / name
+        return self._store.room_folder(row.room).absolute() / PRACTICES / name
 
     def _request(self, row: _Row) -> PracticeRequest:
         """Return the practice, whose files all lie in its folder.

@@ -37,6 +37,8 @@ TEACHER_SETTING = "teacher_token"
 VERSION = 13
 """Version of the tables; a file of a later one is not opened, and neither is one from which
 :data:`_STEPS` do not lead here."""
+ROOMS = "rooms"
+"""Folder in the class's folder with one for each room."""
 PRESENT_ROOM = "present_room_"
 """Beginning of the name of a setting with the room that a seat used last."""
 _MISSION_TABLES = """create table missions (
@@ -405,6 +407,10 @@ class ClassStore:
             present = f"{PRESENT_ROOM}{seat.number}"
             database.execute("delete from settings where name = ?", [present])
         self.query("pragma wal_checkpoint(truncate)")  # the log has pages as they were before
+
+    def room_folder(self, room: str) -> Path:
+        """Return the folder of what a room keeps."""
+        return self.folder / ROOMS / room
 
     def delete_folders(self, *names: str) -> None:
         """Delete folders of the class's folder that are there.

@@ -119,7 +119,7 @@ class TaskQueue(RoomQueue[_Row, TaskState]):
 
     def _folder(self, row: _Row) -> Path:
         """Return the folder of a task; the link takes no key with a separator of paths in it."""
-        return self._store.folder.absolute() / "rooms" / row.room / FOLDER / row.state.key
+        return self._store.room_folder(row.room).absolute() / FOLDER / row.state.key
 
     def _look(self, row: _Row) -> None:
         if row.state.kind != "try":

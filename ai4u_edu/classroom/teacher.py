@@ -472,14 +472,14 @@ def _text_of_room(live: LiveClass, room: str) -> str:
     if state is not None and state.work is not None:
         return state.work.scene
     try:
-        return (live.store.folder / "rooms" / room / SCENE_FILE).read_text(encoding="utf-8")
+        return (live.store.room_folder(room) / SCENE_FILE).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
         text = _("room: its scene is not known yet; it was not changed")
         raise CommandError(text) from None
 
 
 def _taught(live: LiveClass, room: str, folder: str) -> NetworkFolder:
-    return NetworkFolder(live.store.folder / "rooms" / room / folder)
+    return NetworkFolder(live.store.room_folder(room) / folder)
 
 
 def _networks_of(live: LiveClass, room: str) -> list[dict[str, Any]]:

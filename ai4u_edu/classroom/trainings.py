@@ -169,7 +169,7 @@ class Trainings:
 
     async def _learn(self, row: _Row) -> Training:
         """Let a network learn, and return its training at the end."""
-        folder = self._store.folder.absolute() / "rooms" / row.room
+        folder = self._store.room_folder(row.room).absolute()
         drives = [folder / DRIVES / name for name in row.files]
         if [drive.name for drive in drives] != [*row.files] or not all(map(Path.is_file, drives)):
             return replace(row.training, problem=MISSING)

@@ -189,7 +189,7 @@ def _tournaments(live: LiveClass) -> Files:
 
 def _room_files(live: LiveClass, room: str) -> Files:
     """Yield the scene of a room, the scenes that were saved there, and networks that learned."""
-    folder = live.store.folder / "rooms" / room
+    folder = live.store.room_folder(room)
     saved, taught = (
         sorted((folder / SCENES).glob("*.yaml")),
         sorted((folder / TAUGHT).glob("*.onnx")),

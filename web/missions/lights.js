@@ -15,8 +15,8 @@ const PLACES = {
   "First sensor": "[data-blocks=sensors] .ai4u-card-head",
   Keys: ".ai4u-dpad:not(:empty), .ai4u-dock",
   Networks: ".ai4u-networks [aria-expanded=true], .ai4u-networks [aria-expanded]",
-  Space: ".ai4u-dock [data-code=Space]",
   Program: ".ai4u-code-editor, .ai4u-blocks-editor",
+  Space: ".ai4u-dock [data-code=Space]",
 };
 /**
  * Names of the other controls in the page's language, by those that missions have.
