@@ -111,6 +111,18 @@ def test_the_way_to_a_control_is_lit_first(desk: PanelPage) -> None:
     expect(lit).to_have_text(["Pause"])
 
 
+def test_a_light_stays_in_sight_when_the_card_grows_above_it(desk: PanelPage) -> None:
+    desk.button("Details").click()
+    desk.tab("Build").click()
+    desk.panel.change("mission", light=["Add a reward"])
+    lit = desk.page.locator("[data-ai4u-lit]")
+    expect(lit).to_have_accessible_name("Add a reward")
+    expect(lit).to_be_in_viewport(ratio=1)
+    desk.panel.change("mission", hint="It is still not what the goal asks for. " * 8)
+    expect(card(desk).get_by_role("status")).to_contain_text("still not")
+    expect(lit).to_be_in_viewport(ratio=1)
+
+
 def test_a_step_that_is_done_says_so_and_is_kept(desk: PanelPage) -> None:
     status = card(desk).get_by_role("status")
     desk.panel.change("mission", hint="That was the *same* start.")

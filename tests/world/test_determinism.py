@@ -1,6 +1,7 @@
 """Same descriptions, seed and inputs: the same trajectory, bit for bit."""
 
 import gc
+import os
 import random
 import subprocess
 import sys
@@ -43,7 +44,7 @@ def test_in_another_process(trajectory: bytes) -> None:
         output = subprocess.run(
             [sys.executable, "-m", "tests.world.trajectory"],
             cwd=ROOT,
-            env={"PYTHONHASHSEED": hash_seed, "PYTHONPATH": str(ROOT)},
+            env={**os.environ, "PYTHONHASHSEED": hash_seed, "PYTHONPATH": str(ROOT)},
             capture_output=True,
             check=True,
         ).stdout

@@ -65,7 +65,7 @@ export class MissionCard {
     this.#pill.append(this.#pillText);
     this.element.append(this.#card, this.#row, this.#invitation);
     this.#lights = new Lights(this.element);
-    new ResizeObserver(() => ROOT.style.setProperty("--ai4u-mission-height", `${this.element.offsetHeight}px`)).observe(this.element);
+    new ResizeObserver(() => this.#reserveHeight()).observe(this.element);
     panel.addEventListener("part:mission", ({ detail }) => this.#receive(detail));
     panel.addEventListener("connected", () => this.#begin());
     panel.addEventListener("disconnected", () => (this.#isConnected = false));
@@ -73,6 +73,11 @@ export class MissionCard {
     syncMissions();
     missions.addEventListener("assigned", () => this.#isConnected && this.#openAssigned());
     for (const type of ["tab", "way", "driver", "agent"]) panel.addEventListener(type, () => this.#tell());
+  }
+
+  #reserveHeight() {
+    ROOT.style.setProperty("--ai4u-mission-height", `${this.element.offsetHeight}px`);
+    this.#lights.keepInView();
   }
 
   /** Tell the room which mission this page has; it forgets that when it is started again. */

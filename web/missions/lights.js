@@ -103,6 +103,11 @@ export class Lights {
     if (lit.length) this.#scrollTo(lit[0]);
   }
 
+  /** Scroll to what is lit again: what grows above it moves it out of sight. */
+  keepInView() {
+    this.#lit[0]?.scrollIntoView({ block: "nearest", inline: "nearest" });
+  }
+
   /** @param {Element} control */
   #scrollTo(control) {
     const name = nameOf(control);

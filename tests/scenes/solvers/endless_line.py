@@ -2,8 +2,6 @@
 
 from typing import Any
 
-import numpy as np
-
 from ai4u_edu import Percept
 from tests.scenes.solvers import Driver
 
@@ -22,7 +20,7 @@ def solver() -> Driver:
             return {"move": [0.5, 0.5]}
         if eyes.any():
             lost = 0
-            left = float(np.dot(eyes, [1, 0.5, 0, -0.5, -1]) / eyes.sum())
+            left = float((eyes * [1, 0.5, 0, -0.5, -1]).sum() / eyes.sum())
             calm = calm + 1 if abs(left) <= 0.25 else 0
             return {"move": [0.5 - 0.45 * left, 0.5 + 0.45 * left]}
         lost += 1

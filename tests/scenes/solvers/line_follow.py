@@ -2,8 +2,6 @@
 
 from typing import Any
 
-import numpy as np
-
 from ai4u_edu import Percept
 from tests.scenes.solvers import Driver
 
@@ -15,7 +13,7 @@ def solver() -> Driver:
         nonlocal left
         eyes = percept["line"]
         if eyes.any():
-            left = float(np.dot(eyes, [1, 0.5, 0, -0.5, -1]) / eyes.sum())
+            left = float((eyes * [1, 0.5, 0, -0.5, -1]).sum() / eyes.sum())
             return {"move": [0.7 - 0.5 * left, 0.7 + 0.5 * left]}
         turn = 0.4 if left >= 0 else -0.4
         return {"move": [-turn, turn]}

@@ -22,16 +22,16 @@ def solver() -> Driver:
             stuck %= 18
             return {"move": [-1, 0.5, 0, 0]}
         ball, goal, home = (METRES * percept[key][:2] for key in ("ball", "goal", "home"))
-        shot = (goal - ball) / np.linalg.norm(goal - ball)
+        shot = (goal - ball) / math.hypot(*(goal - ball))
         across = np.array([-shot[1], shot[0]])
-        before, beside = float(ball @ shot), float(ball @ across)
+        before, beside = float((ball * shot).sum()), float((ball * across).sum())
         if before > 0 and abs(beside) < (1.2 if before < 1 else 0.4) * before:
             aim = ball + 0.3 * shot
         elif before > 0:
             aim = ball - 1.2 * shot
         else:  # it is in the way: round it, on the side of the middle
-            inwards = math.copysign(1.2, float(((goal + home) / 2 - ball) @ across))
+            inwards = math.copysign(1.2, float((((goal + home) / 2 - ball) * across).sum()))
             aim = ball - 1.0 * shot + inwards * across
-        return seek(*(aim / np.linalg.norm(aim)).tolist())
+        return seek(*(aim / math.hypot(*aim)).tolist())
 
     return drive

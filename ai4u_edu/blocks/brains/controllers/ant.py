@@ -102,7 +102,8 @@ class AntController(SteeringController):
         if eyes.any():
             if nest[0] > 0.5 and math.hypot(*nest) > 2 * self.home:
                 self._turning = _TURN_BACK_DECISIONS
-            side = float(eyes @ np.linspace(1.0, -1.0, len(eyes)) / eyes.sum())
+            # no dot product: its last bit is another one on another processor
+            side = float((eyes * np.linspace(1.0, -1.0, len(eyes))).sum() / eyes.sum())
             return 1.0, side
         is_hit = rays[1::2] > 0.0
         if is_hit.any():  # away from a wall
