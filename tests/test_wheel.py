@@ -142,8 +142,8 @@ def test_the_compiled_part_makes_it_a_wheel_of_a_platform(wheel: Path, pure_whee
 def test_both_wheels_give_the_same_bits(wheel: Path, pure_wheel: Path, tmp_path: Path) -> None:
     """Without a compiler in reach, and with nothing written anywhere."""
     found = []
-    for each in (wheel, pure_wheel):
-        folder, home = tmp_path / each.name, tmp_path / f"home of {each.name}"
+    for name, each in (("compiled", wheel), ("pure", pure_wheel)):  # the same without a compiler
+        folder, home = tmp_path / name, tmp_path / f"home of {name}"
         home.mkdir()
         with zipfile.ZipFile(each) as packed:
             packed.extractall(folder)

@@ -108,6 +108,8 @@ class Practices:
         self._networks, self._teaching = networks, teaching
         self._practices = PracticeFolder(folder / PRACTICES)
         self._practice: Practice | None = None
+        self._found_for = ""
+        """Name of the scene that is open; what is paused there stays on offer there."""
         self._replays: dict[tuple[Path, int], int] = {}
         """Numbers of episodes in the archive, by their file and its time."""
         self.commands: Mapping[type[PageCommand], Handler] = {
@@ -217,8 +219,11 @@ class Practices:
 
     def find(self, scene: str) -> None:
         """Offer to go on with a practice of the present scene that an earlier process began."""
-        practice = self._practice
-        if practice is not None and (self.is_running or practice.request.scene_name == scene):
+        practice, is_known = self._practice, scene == self._found_for
+        self._found_for = scene
+        if practice is not None and (
+            is_known or self.is_running or practice.request.scene_name == scene
+        ):
             return
         self.leave()
         self._practice = practice = self._practices.find(scene, self._make)

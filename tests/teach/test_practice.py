@@ -99,7 +99,7 @@ def test_a_network_practises_and_drives_then(room: PanelRoom, page: PanelPage) -
 def test_the_network_of_the_moment_drives_until_it_is_stopped(
     room: PanelRoom, page: PanelPage
 ) -> None:
-    page.done("teach_practise", steps=LATE, weights={})
+    page.done("teach_practise", steps=LATE, weights=AWAY)
     until(lambda: controller(room) is not None)
     driving = controller(room)
     assert driving is not None
@@ -132,7 +132,7 @@ def test_a_killed_practice_keeps_what_the_world_has(room: PanelRoom, page: Panel
 def test_a_paused_practice_goes_on(room: PanelRoom, page: PanelPage) -> None:
     assert page.done("teach_pause")["text"] == "Nothing practises now."
     assert "no practice that could go on" in page.failed("teach_go_on")["text"]
-    page.done("teach_practise", steps=LATE, weights={"touch": 2})
+    page.done("teach_practise", steps=LATE, weights=AWAY)
     page.part("teach", lambda part: part["practice"] and part["practice"]["decisions"] > 0)
     page.done("teach_pause")
     part = page.part("teach", lambda part: part["practice"]["phase"] == "paused")
@@ -172,7 +172,7 @@ def test_a_saved_practice_of_an_earlier_form_keeps_its_best_network(
 def test_a_practice_goes_on_in_its_scene_though_the_robot_is_gone(
     room: PanelRoom, page: PanelPage
 ) -> None:
-    page.done("teach_practise", steps=LATE, weights={})
+    page.done("teach_practise", steps=LATE, weights=AWAY)
     page.part("teach", lambda part: part["practice"] and part["practice"]["decisions"] > 0)
     room.editor.open(Scene.load("soccer")).result()
     # what is paused before the tab has looked at another scene waits for its own
@@ -182,6 +182,9 @@ def test_a_practice_goes_on_in_its_scene_though_the_robot_is_gone(
     page.part("teach", lambda part: part["practice"]["decisions"] > before)
     page.done("teach_pause")
     page.part("teach", lambda part: part["practice"]["phase"] == "paused")
+    room.editor.remove_block("blue_striker", ("rewards", 0)).result()
+    part = page.part("teach", lambda part: "goal" not in part["rewards"])
+    assert part["practice"], "what was paused here is still offered when the tab looks again"
     room.editor.open(Scene.load("box_chase")).result()
     part = page.part("teach", lambda part: part["practice"] and not part["practice"]["elsewhere"])
     assert part["practice"]["phase"] == "paused"
