@@ -18,6 +18,7 @@ NEEDED = (
     "ai4u_edu/lessons/course/00_start_here.py",
     "ai4u_edu/py.typed",
     "ai4u_edu/scenes/library/box_chase.yaml",
+    "ai4u_edu/web/fonts/LICENSE",
     "ai4u_edu/web/page/main.js",
     "ai4u_edu/web/vendor/pyodide/LICENSE",
     "ai4u_edu/world/native/rays.c",

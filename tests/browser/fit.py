@@ -14,6 +14,15 @@ SHOWN = """() => [...document.querySelectorAll(
   .filter((each) => each.checkVisibility({ visibilityProperty: true }))
   .map((each) => each.innerText.trim())"""
 
+LOADED_FONTS = """() => document.fonts.ready.then(
+    (fonts) => [...fonts].filter((each) => each.status === "loaded").map((each) => each.family))"""
+
+
+def loaded_fonts(page: Page) -> list[str]:
+    """Return the families of fonts that a page has loaded and uses."""
+    families: list[str] = page.evaluate(LOADED_FONTS)
+    return families
+
 
 def cut_texts(page: Page) -> list[str]:
     """Return the visible texts that don't fit into their box."""

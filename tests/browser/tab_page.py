@@ -189,14 +189,19 @@ class TabPage:
 def _address() -> str:
     """Start the server of all tabs, which ends with the process; return its address."""
 
-    names = [name for name in STYLES if "/panel/" in name or name == "styles/page/page.css"]
+    others_too = {"styles/font.css", "styles/page/page.css"}
+    names = [name for name in STYLES if "/panel/" in name or name in others_too]
     styles = "\n".join((web_folder() / name).read_text(encoding="utf-8") for name in names)
-    vendor = Mount("/web/vendor", StaticFiles(directory=web_folder() / "vendor"))
+    styles = styles.replace("../fonts/", "/web/fonts/")
+    files = [
+        Mount(f"/web/{folder}", StaticFiles(directory=web_folder() / folder))
+        for folder in ("fonts", "vendor")
+    ]
 
     def routes(others: dict[str, str]) -> list[BaseRoute]:
         return [
             Route("/", _index(styles, others)),
-            vendor,
+            *files,
             Route("/web/{name:path}", _module(others)),
         ]
 

@@ -19,6 +19,7 @@ from ai4u_edu import (
 )
 from ai4u_edu.agent.cycle import ControlRequestor
 from ai4u_edu.blocks.keyboard import Stick
+from tests.browser.fit import loaded_fonts
 from tests.browser.served_viser import (
     SPEED,
     ServedViser,
@@ -574,6 +575,7 @@ def test_the_whole_page_comes_from_here(zoo: Played, site: ServedViser) -> None:
     page.get_by_role("tab", name="Past").click()
     card = page.locator(".ai4u-tabpanel:visible article")
     card.first.wait_for()  # all parts of the page are there and work
+    assert loaded_fonts(page) == ["Atkinson Hyperlegible Next"]
     here = zoo.url.split("//")[1].rstrip("/")
     elsewhere = [url for url in asked if url.split("//")[-1].split("/")[0] != here]
     assert [url for url in elsewhere if not url.startswith(("blob:", "data:"))] == []

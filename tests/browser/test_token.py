@@ -7,6 +7,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from ai4u_edu.page.server import Rules
 from ai4u_edu.page.server.limits import attempts
+from tests.browser.fit import loaded_fonts
 from tests.chromium import new_page
 from tests.page.server.rooms import Room, served
 
@@ -38,6 +39,7 @@ def test_the_right_token_opens_the_world(room: Room, page: Page, given: str) -> 
     page.add_init_script("window.firstHash = location.hash")  # viser takes it out
     page.goto(f"{room.url}?agent=0#there")
     expect(page.get_by_label("Token")).to_be_focused()
+    assert loaded_fonts(page) == ["Atkinson Hyperlegible Next"], "nobody needs a token for it"
     enter(page, "guess")
     expect(page.get_by_role("alert")).to_have_text("That token is wrong.")
     enter(page, given.format(room.url))

@@ -35,6 +35,6 @@ export function blocksTheme() {
       insertionMarkerColour: "var(--ink)",
       insertionMarkerOpacity: 0.3,
     },
-    fontStyle: { family: "system-ui, sans-serif", size: 11 },
+    fontStyle: { family: "'Atkinson Hyperlegible Next', system-ui, sans-serif", size: 11 },
   };
 }

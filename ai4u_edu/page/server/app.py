@@ -140,7 +140,7 @@ def _script_routes(scripts: Mapping[str, Path], auth: list[Middleware]) -> list[
 
 def _file_routes(page: PageRoutes, auth: list[Middleware]) -> list[Route]:
     files = {
-        "/all_styles.css": page.styles,
+        "/styles/all.css": page.styles,
         "/vendor/{file:path}": VendorFiles().file,
         "/{file:path}": page.file,
     }

@@ -22,10 +22,13 @@ _PLACE = "<title>Viser</title>"
 _OURS = """<title>{title}</title>
     <script src="./web/page/dark.js"></script>
     <script src="./web/page/page_id.js"{panel}></script>
-    <link rel="stylesheet" href="./web/all_styles.css" />
+    <link rel="preload" href="./web/fonts/atkinson_hyperlegible_next.woff2" as="font"
+      type="font/woff2" crossorigin />
+    <link rel="stylesheet" href="./web/styles/all.css" />
     <script type="module" src="./web/page/main.js"></script>
     {preloads}"""
 STYLES = (
+    "styles/font.css",
     "styles/page/page.css",
     "styles/page/dock.css",
     "styles/page/banners.css",

@@ -15,6 +15,7 @@ STANDALONE_POLICY = "; ".join(
         "script-src 'self'",
         "style-src 'self'",
         "connect-src 'self'",
+        "font-src 'self'",
         "img-src 'self' data:",
         "frame-src 'self'",
         "base-uri 'none'",

@@ -8,7 +8,15 @@ from ai4u_edu.locale import translate
 from ai4u_edu.page.server.standalone import STANDALONE_POLICY, page_text
 
 WRONG = _("That token is wrong.")
-PUBLIC_FILES = ("shared/scheme.js", "shared/text.js", "styles/standalone.css", "pages/token.js")
+PUBLIC_FILES = (
+    "fonts/atkinson_hyperlegible_next.woff2",
+    "fonts/atkinson_hyperlegible_next_extended.woff2",
+    "pages/token.js",
+    "shared/scheme.js",
+    "shared/text.js",
+    "styles/font.css",
+    "styles/standalone.css",
+)
 """Files of the page, which a browser gets without a token."""
 
 

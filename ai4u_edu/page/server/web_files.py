@@ -31,7 +31,12 @@ _VENDOR_TYPES = {
     ".zip": "application/zip",
 }
 # a system's own media types are not reliable: some call a .js plain text
-_MEDIA_TYPES = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+_MEDIA_TYPES = {
+    ".css": "text/css",
+    ".js": "text/javascript",
+    ".svg": "image/svg+xml",
+    ".woff2": "font/woff2",
+}
 WEB_PATHS = ("/web", "/web-{version}")
 """Paths of the folder in routes."""
 _ADDRESS = '"./web/'
@@ -40,6 +45,7 @@ FOLDERS = (
     "blocks",
     "classroom",
     "code",
+    "fonts",
     "missions",
     "page",
     "pages",
