@@ -30,7 +30,7 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Any
 
-from ai4u_edu.locale import Text
+from ai4u_edu.locale import Text, in_chosen_language
 from ai4u_edu.locale import gettext as _
 
 MAX_SHOWN_CHARS = 60
@@ -44,12 +44,15 @@ MAX_NAME_CHARS = 80
 class AI4UError(Exception):
     """The base of all errors that this package raises on purpose."""
 
+    def __str__(self) -> str:
+        """Return the message, in English if no language was chosen by ``set_language``."""
+        if len(self.args) == 1 and isinstance(self.args[0], str):
+            return in_chosen_language(self.args[0])
+        return super().__str__()
+
 
 class NameNotFoundError(AI4UError, KeyError):
     """Nothing has this name; the message suggests the nearest known one."""
-
-    def __str__(self) -> str:
-        return str(self.args[0])  # KeyError's own method would quote the message
 
 
 class SetupError(AI4UError):
@@ -109,7 +112,7 @@ class NoDecisionError(AI4UError):
 def text_of(error: BaseException) -> str:
     """Return an error's message, as a text that can be translated if it is one.
 
-    ``str(error)`` makes a plain string of it.
+    As a string it is English; ``str(error)`` is in the language that a program chose.
     """
     (message,) = error.args if len(error.args) == 1 else ("",)
     return message if isinstance(message, Text) else str(error)

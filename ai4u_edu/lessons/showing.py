@@ -13,7 +13,7 @@ from ai4u_edu.lessons.live import Live
 from ai4u_edu.lessons.notebook_output import after_each_cell, in_notebook, put
 from ai4u_edu.lessons.rollouts import brain_for
 from ai4u_edu.locale import gettext as _
-from ai4u_edu.locale import translate
+from ai4u_edu.locale import library_text, translate
 from ai4u_edu.recording import Recorder
 from ai4u_edu.scenes import Scene
 from ai4u_edu.world import World
@@ -54,7 +54,7 @@ def show(
     _current = live = Live(sim, recorder, title, seed, scene)
     set_world(live)
     live.end_without_page(_end)
-    words = translate(_("{title} runs at {address}", title=title, address=live.url))
+    words = translate(_("{title} runs at {address}", title=library_text(title), address=live.url))
     put(live.page(height), words, live.handle)
     if in_notebook():
         put("", "", live.film)

@@ -59,7 +59,7 @@ def mistake_in(error: BaseException) -> Mistake | None:
             line=line,
         )
         return Mistake(words, name)
-    text = str(error)
+    text = str(text_of(error))  # in English, whatever the notebook speaks
     parameters = _PARAMETERS.search(text)
     if parameters and isinstance(error, TypeError):
         return Mistake(text, "parameters", parameters["name"].rpartition("<locals>.")[2])
@@ -70,19 +70,14 @@ def mistake_in(error: BaseException) -> Mistake | None:
     notes = "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
     if isinstance(error, AI4UError):
         name = "action" if _ACTION.search(text) else "set-up"
-        plain = _plain(text)
-        plain = text_of(error) if plain == text else plain
-        words = _("It could not be put together or run: {text}{notes}", text=plain, notes=notes)
+        words = _(
+            "It could not be put together or run: {text}{notes}", text=text_of(error), notes=notes
+        )
         return Mistake(words, name)
     if _NO_NUMBER.search(text):
         words = _("Expected a number from your code: {text}{notes}.", text=text, notes=notes)
         return Mistake(words, "not-a-number")
     return None
-
-
-def _plain(text: str) -> str:
-    """Return an error's text without the number of a world's only agent."""
-    return text.replace("agent '0': ", "").replace("agent '0' ", "the robot ")
 
 
 def line_of(error: BaseException) -> str:

@@ -134,11 +134,13 @@ def page_catalogue(language: str) -> str:
 
 _TRANSLATED = tuple(code for code in LANGUAGES if code != SOURCE)
 _own: list[Catalogue] = []
+_chosen: list[Catalogue] = []
+"""Choice of :func:`set_language`; empty before it."""
 _reader: ContextVar[Catalogue | None] = ContextVar("reader", default=None)
 
 
 def set_language(language: str) -> None:
-    """Choose the language of this process's terminal or notebook.
+    """Choose the language of this process's terminal or notebook, and of errors as strings there.
 
     Args:
         language: its code, such as ``"pt_BR"``.
@@ -149,7 +151,16 @@ def set_language(language: str) -> None:
     code = known_language(language)
     if not code:
         raise ValueError(f"expected one of {', '.join(LANGUAGES)}, got {language!r}")
-    _own[:] = [Catalogue(code)]
+    _own[:] = _chosen[:] = [Catalogue(code)]
+
+
+def in_chosen_language(text: str) -> str:
+    """Return a text in the language that :func:`set_language` chose; in English before that.
+
+    For what a person's own program prints of an error. Where it is known who reads, take
+    :func:`translate`.
+    """
+    return _chosen[0].translate(text) if _chosen else str(text)
 
 
 @contextmanager

@@ -293,7 +293,7 @@ def _path_of(error: AI4UError, agents: Iterable[Mapping[str, Any]]) -> DataPath:
         return ()
     # of two agents with the same id the second one is wrong
     base: DataPath = ("agents", len(index) - 1 - index[::-1].index(True))
-    return base + _inside(agent, where[-1], plain[int(base[1])], str(error))
+    return base + _inside(agent, where[-1], plain[int(base[1])], text_of(error))
 
 
 def _inside(agent: BasicAgent, part: object, plain: Mapping[str, Any], text: str) -> DataPath:

@@ -127,7 +127,7 @@ SLIPS: dict[str, tuple[str, str, str, str]] = {
         "00.1",
         "def go(percept):\n    return [1, 0, 0, 0]",
         "action",
-        "run: expected an action by actuator name, such as {'move': [0.0, 0.0, 0.0, 0.0]}, got",
+        "expected an action by actuator name, such as {'move': [0.0, 0.0, 0.0, 0.0]}, got",
     ),
     "a number too few": (
         "00.1",

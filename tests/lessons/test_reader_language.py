@@ -1,13 +1,16 @@
 """Checks in the language of a notebook; what is saved is English."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from ai4u_edu import RBMoveActuator, Scene
+from ai4u_edu.base.errors import ParameterError, SceneError, text_of
 from ai4u_edu.lessons import check, hint, progress, report, solution
 from ai4u_edu.lessons.progress_file import ProgressFile
-from ai4u_edu.locale import reader
+from ai4u_edu.locale import reader, set_language
 
 
 @pytest.fixture(autouse=True)
@@ -40,6 +43,27 @@ def test_a_mistake_in_a_scene_is_told_in_portuguese(capsys: pytest.CaptureFixtur
     out = capsys.readouterr().out
     assert "bodys: parâmetro desconhecido; você quis dizer 'bodies'?" in out
     assert "unknown" not in out
+
+
+@pytest.fixture
+def _portuguese() -> Iterator[None]:
+    set_language("pt_BR")
+    yield
+    set_language("en")  # as if nothing had been chosen
+
+
+@pytest.mark.usefixtures("_portuguese")
+def test_a_notebook_prints_errors_in_its_language(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SceneError, match="você quis dizer 'box_chase'"):
+        Scene.load("box_chas")
+    with pytest.raises(ParameterError, match="parâmetro desconhecido") as caught:
+        RBMoveActuator(move_amuont=1)  # type: ignore[call-arg]
+    assert "unknown parameter" in text_of(caught.value), "as a text it can still be compared"
+    check("00.1", lambda _percept: {"mov": [0, 0, 0, 0]})
+    check("00.1", lambda _percept: None)  # what is wrong is found by an error's words
+    out = capsys.readouterr().out
+    assert "o agente '0' não tem o atuador 'mov'; você quis dizer 'move'?" in out
+    assert "não devolveu nada" in out
 
 
 def test_a_report_is_written_in_portuguese(tmp_path: Path) -> None:

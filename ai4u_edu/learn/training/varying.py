@@ -278,7 +278,7 @@ def with_value(scene: Scene, parameter: NumberParameter, value: float) -> Scene:
     except PlainDataError as error:
         text = join([each.text for each in error.problems], "; ")
     except AI4UError as error:
-        text = join([text_of(error), *([TO_FIT] if NO_FIT in str(error) else [])], "; ")
+        text = join([text_of(error), *([TO_FIT] if NO_FIT in text_of(error) else [])], "; ")
     else:
         return changed
     raise SetupError(join([f"{parameter.name} = {value:g}", text], ": "))

@@ -333,7 +333,7 @@ def fits(senses: Any) -> Done:
         for done in drives(lambda: put_to(sensors), None, seeds_of("13.3", worlds), limit=100):
             won += done.won
     except BlockError as error:
-        hint = "shape" if "has the shape" in str(error) else "missing"
+        hint = "shape" if "has the shape" in text_of(error) else "missing"
         raise NotYet(_("It does not fit: {error}", error=text_of(error)), hint=hint) from None
     return Done(
         _(

@@ -49,7 +49,7 @@ def dry_run(state: EditState, path: BlockPath = (), *, resets: int = 1) -> Contr
         raise ChangeError([relative_to(path, problem)]) from None
     except AI4UError as error:
         changed = _at(description.agents, path[1:]) if path else None
-        field = field_named_in(str(error), changed)
+        field = field_named_in(text_of(error), changed)
         raise ChangeError([ParameterProblem(field, text_of(error))]) from None
     except (ArithmeticError, MemoryError) as error:
         text = _(
