@@ -5,6 +5,7 @@
 
 import gettext as gnu
 import json
+import os
 import re
 import unicodedata
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ from ai4u_edu.locale.languages import (
     LANGUAGES,
     PSEUDO,
     SOURCE,
+    VARIABLE,
     known_language,
     language_of_environment,
 )
@@ -142,6 +144,8 @@ _reader: ContextVar[Catalogue | None] = ContextVar("reader", default=None)
 def set_language(language: str) -> None:
     """Choose the language of this process's terminal or notebook, and of errors as strings there.
 
+    Programs that it starts later have it, too.
+
     Args:
         language: its code, such as ``"pt_BR"``.
 
@@ -152,6 +156,7 @@ def set_language(language: str) -> None:
     if not code:
         raise ValueError(f"expected one of {', '.join(LANGUAGES)}, got {language!r}")
     _own[:] = _chosen[:] = [Catalogue(code)]
+    os.environ[VARIABLE] = code
 
 
 def in_chosen_language(text: str) -> str:

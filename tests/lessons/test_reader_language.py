@@ -1,5 +1,7 @@
 """Checks in the language of a notebook; what is saved is English."""
 
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,7 +12,7 @@ from ai4u_edu import RBMoveActuator, Scene
 from ai4u_edu.base.errors import ParameterError, SceneError, text_of
 from ai4u_edu.lessons import check, hint, progress, report, solution
 from ai4u_edu.lessons.progress_file import ProgressFile
-from ai4u_edu.locale import reader, set_language
+from ai4u_edu.locale import VARIABLE, reader, set_language
 
 
 @pytest.fixture(autouse=True)
@@ -46,7 +48,8 @@ def test_a_mistake_in_a_scene_is_told_in_portuguese(capsys: pytest.CaptureFixtur
 
 
 @pytest.fixture
-def _portuguese() -> Iterator[None]:
+def _portuguese(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setenv(VARIABLE, "en")  # so that it is as before afterwards
     set_language("pt_BR")
     yield
     set_language("en")  # as if nothing had been chosen
@@ -64,6 +67,13 @@ def test_a_notebook_prints_errors_in_its_language(capsys: pytest.CaptureFixture[
     out = capsys.readouterr().out
     assert "o agente '0' não tem o atuador 'mov'; você quis dizer 'move'?" in out
     assert "não devolveu nada" in out
+
+
+@pytest.mark.usefixtures("_portuguese")
+def test_a_program_that_a_notebook_starts_has_its_language() -> None:
+    command = [sys.executable, "-m", "ai4u_edu", "check", "box_chas"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "você quis dizer 'box_chase'" in done.stderr
 
 
 def test_a_report_is_written_in_portuguese(tmp_path: Path) -> None:

@@ -30,6 +30,7 @@ from ai4u_edu.lessons.numeric import chance_for, difference, finite_number, is_c
 from ai4u_edu.lessons.rollouts import drives, seeds_of
 from ai4u_edu.lessons.worlds import plate
 from ai4u_edu.locale import gettext as _
+from ai4u_edu.locale import join
 from ai4u_edu.scenes import Scene
 from ai4u_edu.scenes.serialization import from_plain
 
@@ -109,7 +110,7 @@ def is_a_brain(driver: Any) -> Done:
     with TemporaryDirectory() as folder:
         told = _told_of_brains(make, _network_of_interval(interval, Path(folder)))
     return Done(
-        _("Each at the interval of its training. Worlds won: {listed}.", listed=", ".join(told))
+        _("Each at the interval of its training. Worlds won: {listed}.", listed=join(told, ", "))
     )
 
 
