@@ -43,7 +43,7 @@ TOO_MANY = _(
 
 
 @dataclass(eq=False)
-class _Row(QueueRow[Practised, PracticeProcess]):
+class _PracticeRow(QueueRow[Practised, PracticeProcess]):
     """A room's practice."""
 
     decisions: int = 0
@@ -69,7 +69,7 @@ class _Row(QueueRow[Practised, PracticeProcess]):
         return self.checks > self.checks_before
 
 
-class PracticeQueue(RoomQueue[_Row, Practised]):
+class PracticeQueue(RoomQueue[_PracticeRow, Practised]):
     """Practices of all rooms; those with the fewest decisions left learn first.
 
     One that waits takes the place of a longer one at the longer one's next check. Each is on disk
@@ -96,7 +96,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
     def read(self) -> None:
         """Read all from the store."""
         rows = self._store.query("select key, room, state from practices order by rowid")
-        self._rows = {key: _Row(room, _read(state)) for key, room, state in rows}
+        self._rows = {key: _PracticeRow(room, _read(state)) for key, room, state in rows}
         for row in self._rows.values():
             self._look(row)  # those that are over are not looked at again
 
@@ -130,20 +130,20 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
             StoreError: it can't be written.
         """
         if request.key not in self._rows:
-            row = _Row(room, Practised(request.key, request.practice))
+            row = _PracticeRow(room, Practised(request.key, request.practice))
             await self._take(row, TOO_MANY if len(self._open(room)) >= MAX_OPEN else "")
         self._tell(room)
 
-    def _lines(self) -> Iterable[list[_Row]]:
+    def _lines(self) -> Iterable[list[_PracticeRow]]:
         yield self._waiting()
 
-    def _waiting(self) -> list[_Row]:
+    def _waiting(self) -> list[_PracticeRow]:
         """Return those that wait, the next one first."""
         return sorted(
             (row for row in self._open() if row.process is None), key=lambda row: row.remaining
         )
 
-    async def _round(self, rows: list[_Row]) -> None:
+    async def _round(self, rows: list[_PracticeRow]) -> None:
         for row in rows:
             await asyncio.to_thread(self._look, row)
         for row in rows:
@@ -151,7 +151,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
         await self._schedule()
         self._note_change()
 
-    async def _follow(self, row: _Row) -> None:
+    async def _follow(self, row: _PracticeRow) -> None:
         """Look whether a process has ended, or must."""
         process = row.process
         if process is None or row.is_ending:
@@ -178,19 +178,19 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
             if await self._begin(row):
                 running.append(row)
 
-    async def _save(self, row: _Row) -> None:
+    async def _save(self, row: _PracticeRow) -> None:
         await asyncio.to_thread(self._write, row)
 
-    async def _save_end(self, row: _Row) -> None:
+    async def _save_end(self, row: _PracticeRow) -> None:
         with suppress(StoreError):  # a full disk: it begins again in the class's next process
             await super()._save_end(row)
 
-    async def _delete(self, row: _Row) -> None:
+    async def _delete(self, row: _PracticeRow) -> None:
         await asyncio.to_thread(self._delete_key, row.state.key)
 
     # -- in threads --------------------------------------------------------------------------------
 
-    def _folder(self, row: _Row) -> Path:
+    def _folder(self, row: _PracticeRow) -> Path:
         """Return the folder of a practice.
 
         Raises:
@@ -201,7 +201,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
             raise FileNotFoundError
         return self._store.room_folder(row.room).absolute() / PRACTICES / name
 
-    def _request(self, row: _Row) -> PracticeRequest:
+    def _request(self, row: _PracticeRow) -> PracticeRequest:
         """Return the practice, whose files all lie in its folder.
 
         Raises:
@@ -219,7 +219,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
             blocks=[str(file) for file in own_files()],
         )
 
-    def _look(self, row: _Row) -> None:
+    def _look(self, row: _PracticeRow) -> None:
         with suppress(OSError, ValueError, ValidationError, msgspec.MsgspecError):
             folder = self._folder(row)
             if not row.total:
@@ -234,12 +234,12 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
             shares = [point.success for point in progress.curve if point.success is not None]
             row.success = max(shares, default=None)
 
-    def _start(self, row: _Row) -> PracticeProcess:
+    def _start(self, row: _PracticeRow) -> PracticeProcess:
         request = self._request(row)
         row.checks_before = row.checks
         return PracticeProcess(request)
 
-    def _end_process(self, row: _Row) -> None:
+    def _end_process(self, row: _PracticeRow) -> None:
         process = row.process
         if process is None:
             return
@@ -249,7 +249,7 @@ class PracticeQueue(RoomQueue[_Row, Practised]):
         with suppress(OSError):  # the folder is gone
             write_atomically(self._folder(row) / CPU_FILE, f"{row.cpu_s:.1f}", mode=0o600)
 
-    def _write(self, row: _Row) -> None:
+    def _write(self, row: _PracticeRow) -> None:
         with self._store.transaction() as database:
             values = [
                 row.state.key,

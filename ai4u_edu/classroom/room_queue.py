@@ -29,13 +29,13 @@ STOPPED_BY_TEACHER = _("your teacher has stopped it")
 MISSING = _("its files are not there any more; begin another one")
 
 
-class _Process(Protocol):
+class _Killable(Protocol):
     def kill(self) -> None:
         """End it."""
 
 
 StateT = TypeVar("StateT", Practised, TaskState)
-ProcessT = TypeVar("ProcessT", bound=_Process)
+ProcessT = TypeVar("ProcessT", bound=_Killable)
 
 
 @dataclass(eq=False)

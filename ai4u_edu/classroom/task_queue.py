@@ -35,7 +35,7 @@ TOO_MANY = _("this world has such a task already; wait until it is done")
 
 
 @dataclass(eq=False)
-class _Row(QueueRow[TaskState, "_TaskProcess"]):
+class _TaskRow(QueueRow[TaskState, "_TaskProcess"]):
     """A room's task."""
 
     total: int = 1
@@ -44,7 +44,7 @@ class _Row(QueueRow[TaskState, "_TaskProcess"]):
     """Episodes that were driven."""
 
 
-class TaskQueue(RoomQueue[_Row, TaskState]):
+class TaskQueue(RoomQueue[_TaskRow, TaskState]):
     """Tasks of all rooms: one of each kind at a time.
 
     Files are opened in the order in which they came, tries with the fewest episodes come first.
@@ -67,25 +67,25 @@ class TaskQueue(RoomQueue[_Row, TaskState]):
         """Take a room's request; one that is there is told again."""
         if request.key not in self._rows:
             has_one = any(row.state.kind == request.kind for row in self._open(room))
-            row = _Row(room, TaskState(request.key, request.kind))
+            row = _TaskRow(room, TaskState(request.key, request.kind))
             await self._take(row, TOO_MANY if has_one else "")
         self._tell(room)
 
-    def _lines(self) -> Iterable[list[_Row]]:
+    def _lines(self) -> Iterable[list[_TaskRow]]:
         return map(self._waiting, MODULES)
 
-    def _waiting(self, kind: TaskKind) -> list[_Row]:
+    def _waiting(self, kind: TaskKind) -> list[_TaskRow]:
         """Return those of a kind that wait, the next one first."""
         rows = [row for row in self._open() if row.state.kind == kind and row.process is None]
         return sorted(rows, key=lambda row: row.total - row.done)
 
-    async def _round(self, rows: list[_Row]) -> None:
+    async def _round(self, rows: list[_TaskRow]) -> None:
         for row in rows:
             await self._follow(row)
         for kind in MODULES:
             await self._schedule(kind)
 
-    async def _follow(self, row: _Row) -> None:
+    async def _follow(self, row: _TaskRow) -> None:
         """Look whether a process has ended, or must."""
         process = row.process
         if process is None or row.is_ending:
@@ -117,11 +117,11 @@ class TaskQueue(RoomQueue[_Row, TaskState]):
 
     # -- in threads --------------------------------------------------------------------------------
 
-    def _folder(self, row: _Row) -> Path:
+    def _folder(self, row: _TaskRow) -> Path:
         """Return the folder of a task; the link takes no key with a separator of paths in it."""
         return self._store.room_folder(row.room).absolute() / FOLDER / row.state.key
 
-    def _look(self, row: _Row) -> None:
+    def _look(self, row: _TaskRow) -> None:
         if row.state.kind != "try":
             return
         with suppress(OSError, msgspec.MsgspecError):
@@ -131,7 +131,7 @@ class TaskQueue(RoomQueue[_Row, TaskState]):
             row.total = request.starts * len(request.values)
             row.done = len(_tried(folder)) * request.starts
 
-    def _start(self, row: _Row) -> "_TaskProcess":
+    def _start(self, row: _TaskRow) -> "_TaskProcess":
         folder = self._folder(row)
         text, blocks = (folder / REQUEST).read_bytes(), [str(file) for file in own_files()]
         if row.state.kind == "open":

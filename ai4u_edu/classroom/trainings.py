@@ -38,7 +38,7 @@ FULL = _("the class's folder is full, and keeps nothing more; tell your teacher"
 
 
 @dataclass(frozen=True)
-class _Row:
+class _TrainingRow:
     """A room's latest training, as it is stored."""
 
     room: str
@@ -67,14 +67,14 @@ class Trainings:
     ) -> None:
         self._store, self._tell_room, self._note_change = store, tell_room, note_change
         self._working: asyncio.Task[None] | None = None
-        self._running: tuple[_Row, Learning] | None = None
+        self._running: tuple[_TrainingRow, Learning] | None = None
         self.read()
 
     def read(self) -> None:
         """Read all from the store."""
         rows = self._store.query("select room, training, files from trainings order by rowid")
         self._rows = {
-            room: _Row(
+            room: _TrainingRow(
                 room,
                 _read(training),
                 msgspec.json.decode(files, type=tuple[str, ...]),
@@ -114,7 +114,7 @@ class Trainings:
         training = Training(request.key, request.scene, request.agent, len(request.drives))
         if self._store.quota.is_full:
             training = replace(training, problem=FULL)
-        row = _Row(room, training, request.drives)
+        row = _TrainingRow(room, training, request.drives)
         if await asyncio.to_thread(self._insert, row):
             self._rows.pop(room, None)  # to the end of the line
             self._rows[room] = row
@@ -153,7 +153,7 @@ class Trainings:
         if self._working is not None:
             await asyncio.gather(self._working, return_exceptions=True)
 
-    def _line(self) -> list[_Row]:
+    def _line(self) -> list[_TrainingRow]:
         """Return those that learn or wait, the first one first."""
         return [row for row in self._rows.values() if not row.training.is_over]
 
@@ -167,7 +167,7 @@ class Trainings:
         finally:
             self._working = None
 
-    async def _learn(self, row: _Row) -> Training:
+    async def _learn(self, row: _TrainingRow) -> Training:
         """Let a network learn, and return its training at the end."""
         folder = self._store.room_folder(row.room).absolute()
         drives = [folder / DRIVES / name for name in row.files]
@@ -196,7 +196,7 @@ class Trainings:
             learning.stop()
         return _ended(row.training, learning, faults)
 
-    async def _follow(self, row: _Row, learning: Learning) -> None:
+    async def _follow(self, row: _TrainingRow, learning: Learning) -> None:
         told = -1
         while learning.is_running:
             if self._rows.get(row.room) is not row:  # it was stopped
@@ -208,11 +208,11 @@ class Trainings:
                 self._tell_room(row.room)
             await asyncio.sleep(POLL_S)
 
-    async def _end_row(self, row: _Row, training: Training) -> None:
+    async def _end_row(self, row: _TrainingRow, training: Training) -> None:
         """Note the end of a training, if the room has no other one since."""
         if self._rows.get(row.room) is not row:
             return
-        self._rows[row.room] = ended = _Row(row.room, training, row.files)
+        self._rows[row.room] = ended = _TrainingRow(row.room, training, row.files)
         with suppress(StoreError):  # a full disk: it begins again in the class's next process
             await asyncio.to_thread(self._update, ended)
         for room in (row.room, *(other.room for other in self._line())):  # all move up
@@ -221,7 +221,7 @@ class Trainings:
 
     # -- in threads --------------------------------------------------------------------------------
 
-    def _insert(self, row: _Row) -> bool:
+    def _insert(self, row: _TrainingRow) -> bool:
         with self._store.transaction() as database:
             # as with any result, a key that came is known for ever
             cursor = database.execute(
@@ -236,7 +236,7 @@ class Trainings:
             )
         return True
 
-    def _update(self, row: _Row) -> None:
+    def _update(self, row: _TrainingRow) -> None:
         with self._store.transaction() as database:
             # the room may have another one meanwhile
             values = [_json(row.training), row.room, row.training.key]

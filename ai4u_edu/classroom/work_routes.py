@@ -107,7 +107,7 @@ class _Reached(_Request):
     stars: int = Field(default=0, ge=0, le=MAX_COUNT)
 
 
-class _Place(_Request):
+class _ShownStep(_Request):
     """The step that a page shows."""
 
     model_config = ConfigDict(strict=True)
@@ -127,7 +127,7 @@ class _ReportedMissions(_Request):
     """Progress in missions to keep, and where the page is."""
 
     missions: dict[_MissionName, _Reached] = Field(default={}, max_length=MAX_MISSIONS)
-    place: _Place | None = None
+    place: _ShownStep | None = None
     """None if it is as before."""
 
 

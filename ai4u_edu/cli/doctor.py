@@ -42,7 +42,7 @@ BROWSERS = "firefox", "chromium", "chromium-browser", "google-chrome", "microsof
 SHOWN_VERSIONS = "gymnasium", "numpy", "pymunk", "starlette", "uvicorn", "viser", "websockets"
 
 
-class Finding(NamedTuple):
+class DoctorFinding(NamedTuple):
     """One line of the report."""
 
     subject: str
@@ -70,18 +70,20 @@ def doctor(
         raise typer.Exit(1)
 
 
-def examine(port: int) -> Iterator[Finding]:
+def examine(port: int) -> Iterator[DoctorFinding]:
     """Give the findings of a report.
 
     Args:
         port: that the page will use.
     """
-    yield Finding("AI4U Edu", f"{__version__} ({_installation()})")
-    yield Finding("Python", f"{platform.python_version()} ({platform.python_implementation()})")
-    yield Finding("system", f"{_system()}, {platform.machine()}")
+    yield DoctorFinding("AI4U Edu", f"{__version__} ({_installation()})")
+    yield DoctorFinding(
+        "Python", f"{platform.python_version()} ({platform.python_implementation()})"
+    )
+    yield DoctorFinding("system", f"{_system()}, {platform.machine()}")
     versions = {name: _version(name) for name in SHOWN_VERSIONS}
     shown = (f"{name} {version}" for name, version in versions.items() if version)
-    yield Finding("versions", ", ".join(shown))
+    yield DoctorFinding("versions", ", ".join(shown))
     yield _packages()
     yield _compiled_part()
     for extra, use in USES.items():
@@ -89,7 +91,7 @@ def examine(port: int) -> Iterator[Finding]:
     yield _port(port)
     yield _browser()
     encoding = getattr(sys.stdout, "encoding", None) or "unknown"
-    yield Finding("console", f"encoding {encoding}")
+    yield DoctorFinding("console", f"encoding {encoding}")
 
 
 def _installation() -> str:
@@ -146,35 +148,35 @@ def requirements(extra: str = "") -> list[str]:
     return names
 
 
-def _packages() -> Finding:
+def _packages() -> DoctorFinding:
     missing = [name for name in requirements() if not _version(name)]
     if not missing:
-        return Finding("packages", "all that are needed are installed")
-    return Finding(
+        return DoctorFinding("packages", "all that are needed are installed")
+    return DoctorFinding(
         "packages",
         f"missing: {', '.join(missing)}",
         _("install it again: {command}", command=REINSTALL),
     )
 
 
-def _compiled_part() -> Finding:
+def _compiled_part() -> DoctorFinding:
     from ai4u_edu.world.native import IS_NATIVE, is_compiled
 
     if is_compiled():
-        return Finding("compiled part", "in use")
+        return DoctorFinding("compiled part", "in use")
     if os.environ.get(SWITCH_VARIABLE) == "0":
-        return Finding(
+        return DoctorFinding(
             "compiled part",
             "switched off",
             _("it is used without {setting}", setting=f"{SWITCH_VARIABLE}=0"),
         )
     if not IS_NATIVE:
-        return Finding(
+        return DoctorFinding(
             "compiled part",
             "not used: another pymunk than the tested one",
             _("all numbers are right, and rays slower; {command}", command=REINSTALL),
         )
-    return Finding(
+    return DoctorFinding(
         "compiled part",
         "missing",
         _(
@@ -184,43 +186,43 @@ def _compiled_part() -> Finding:
     )
 
 
-def _extra(extra: str, use: str) -> Finding:
+def _extra(extra: str, use: str) -> DoctorFinding:
     names = requirements(extra)
     missing = [name for name in names if not _version(name)]
     subject = f"[{extra}]"
     if names and not missing:
-        return Finding(subject, f"installed, for {use}")
+        return DoctorFinding(subject, f"installed, for {use}")
     if len(missing) < len(names):
         lacks = f"in part, for {use}; missing: {', '.join(missing)}"
         complete = f'pip install "{PACKAGE}[{extra}]"'
-        return Finding(subject, lacks, _("complete it with: {command}", command=complete))
-    return Finding(subject, f"not installed, would be for {use}")
+        return DoctorFinding(subject, lacks, _("complete it with: {command}", command=complete))
+    return DoctorFinding(subject, f"not installed, would be for {use}")
 
 
-def _port(port: int) -> Finding:
+def _port(port: int) -> DoctorFinding:
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
         if os.name == "posix":  # elsewhere it would let two programs share a port
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind(("127.0.0.1", port))
         except OSError:
-            return Finding(
+            return DoctorFinding(
                 f"port {port}",
                 "taken",
                 _("another program, or AI4U Edu, has it; play --port 0"),
             )
-    return Finding(f"port {port}", "free")
+    return DoctorFinding(f"port {port}", "free")
 
 
-def _browser() -> Finding:
+def _browser() -> DoctorFinding:
     if sys.platform in {"win32", "darwin"}:
-        return Finding("browser", "the system's")
+        return DoctorFinding("browser", "the system's")
     found = [name for name in BROWSERS if shutil.which(name)]
     has_desktop = any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY"))
     desktop = "a desktop" if has_desktop else "no desktop"
     if found and has_desktop:
-        return Finding("browser", f"{', '.join(found)}; {desktop}")
-    return Finding(
+        return DoctorFinding("browser", f"{', '.join(found)}; {desktop}")
+    return DoctorFinding(
         "browser",
         f"{', '.join(found) or 'none found'}; {desktop}",
         _(

@@ -49,7 +49,7 @@ _SENTENCES = (
 """Sentences of Typer, click and pydantic; the first that fits is taken."""
 
 
-class Command(TyperCommand):
+class LocalizedCommand(TyperCommand):
     """A command with a usage line in the reader's language."""
 
     def get_usage(self, ctx: Any) -> str:
@@ -57,7 +57,7 @@ class Command(TyperCommand):
         return _usage(super().get_usage(ctx))
 
 
-class Group(TyperGroup):
+class LocalizedGroup(TyperGroup):
     """A group of commands with a usage line in the reader's language."""
 
     def get_usage(self, ctx: Any) -> str:
@@ -69,11 +69,11 @@ class App(typer.Typer):
     """A command line whose commands have a usage line in the reader's language."""
 
     def __init__(self, **settings: Any) -> None:
-        super().__init__(cls=Group, **settings)
+        super().__init__(cls=LocalizedGroup, **settings)
 
     def command(self, name: str | None = None, **settings: Any) -> Callable[[F], F]:
         """Return a decorator that adds a command."""
-        return super().command(name, cls=Command, **settings)
+        return super().command(name, cls=LocalizedCommand, **settings)
 
 
 def _usage(line: str) -> str:

@@ -15,7 +15,7 @@ NO_SWITCHES = Switches()
 
 
 @dataclass(frozen=True)
-class _Shown:
+class _ViewState:
     """State of a view; replaced, never changed."""
 
     name: str = ""
@@ -45,7 +45,7 @@ class ClassView:
     def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
         self._lock = threading.Lock()
-        self._shown: _Shown | None = None
+        self._shown: _ViewState | None = None
         self._version = 0
 
     @property
@@ -147,7 +147,7 @@ class ClassView:
             "mission": {"mission": shown.mission, "assignment": shown.assignment},
         }
 
-    def _race(self, shown: _Shown) -> dict[str, Any] | None:
+    def _race(self, shown: _ViewState) -> dict[str, Any] | None:
         race = shown.race
         if race is None:
             return None
@@ -174,8 +174,8 @@ class ClassView:
 
     def _change(self, **fields: Any) -> None:
         with self._lock:
-            values = {**vars(self._shown or _Shown()), **fields}
-            shown = _Shown(**values)
+            values = {**vars(self._shown or _ViewState()), **fields}
+            shown = _ViewState(**values)
             if shown != self._shown:
                 self._shown = shown
                 self._version += 1

@@ -230,7 +230,7 @@ class MissionFolder:
         self, folder: Path | None = None, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self.folder, self._clock = folder, clock
-        self._seen = _Seen(-math.inf, None, library_missions())
+        self._seen = _Look(-math.inf, None, library_missions())
 
     def missions(self) -> Missions:
         """Return all missions; a file that was saved is read again within a second."""
@@ -241,7 +241,7 @@ class MissionFolder:
         files = _files(folder)
         state = tuple((path, *_stat(path)) for path in files)
         missions = seen.missions if state == seen.state else _with_folder(folder, files)
-        self._seen = _Seen(now, state, missions)
+        self._seen = _Look(now, state, missions)
         return missions
 
 
@@ -260,7 +260,7 @@ def library_missions() -> Missions:
 
 
 @dataclass(frozen=True)
-class _Seen:
+class _Look:
     at: float
     state: tuple[tuple[Path, float, int], ...] | None
     """Each file with its time and size; None before the first look."""

@@ -176,7 +176,7 @@ class Episode:
 E = TypeVar("E", bound=Episode)
 
 
-class _Agent(BaseModel):
+class _AgentColumns(BaseModel):
     """One agent's columns in a file."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -214,7 +214,7 @@ class _File(BaseModel):
     ticks: int = Field(ge=0, le=2 * MAX_TICK)
     changed: int | None = Field(ge=0, le=2 * MAX_TICK)
     cut: bool
-    agents: list[_Agent] = Field(min_length=1, max_length=64)
+    agents: list[_AgentColumns] = Field(min_length=1, max_length=64)
     order: bytes
     restarts: list[tuple[int, list[int]]]
     inputs: list[tuple[int, int, str, int, list[float]]] = Field(default=[], max_length=MAX_INPUTS)
@@ -409,7 +409,7 @@ def _message(problems: list[ParameterProblem]) -> str:
     return _("{problems} (and {more} more)", problems=text, more=len(problems) - 3)
 
 
-def _record(agent: _Agent) -> AgentRecord:
+def _record(agent: _AgentColumns) -> AgentRecord:
     return AgentRecord(
         id=agent.id,
         begin=unpack_column(agent.begin, np.uint32, "begin"),

@@ -16,7 +16,7 @@ class Message(NamedTuple):
     numbers: tuple[float, ...]
 
 
-class _World(Protocol):
+class _WorldOfSpeakers(Protocol):
     """Protocol of a world in which bodies speak (World is one)."""
 
     @property
@@ -33,7 +33,7 @@ class Messages:
     listens after it, so the agents' order makes no difference.
     """
 
-    def __init__(self, world: _World) -> None:
+    def __init__(self, world: _WorldOfSpeakers) -> None:
         self._world = world
         self._last: dict[str, Message] = {}
 

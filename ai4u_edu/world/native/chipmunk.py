@@ -45,7 +45,7 @@ IS_NATIVE = _is_known()
 """True if Chipmunk is called through pymunk's private layer, False if through its public API."""
 
 
-class Motion(NamedTuple):
+class ChipmunkMotion(NamedTuple):
     """Motion of a body: up to date whenever it is read, and set at once.
 
     It lies in Chipmunk's own memory. A call of Chipmunk lets another thread of Python go first, and
@@ -99,9 +99,9 @@ class _PublicNumber:
         setattr(self._pm, self._name, number)
 
 
-def public_motion(pm: pymunk.Body) -> Motion:
+def public_motion(pm: pymunk.Body) -> ChipmunkMotion:
     """Return a body's motion through pymunk's public API."""
-    return Motion(
+    return ChipmunkMotion(
         centre=_PublicVector(pm, "position"),
         angle=_PublicNumber(pm, "angle"),
         velocity=_PublicVector(pm, "velocity"),
@@ -109,9 +109,9 @@ def public_motion(pm: pymunk.Body) -> Motion:
     )
 
 
-def _motion(pm: pymunk.Body) -> Motion:
+def _motion(pm: pymunk.Body) -> ChipmunkMotion:
     numbers = _numbers(pm)
-    return Motion(
+    return ChipmunkMotion(
         centre=ffi.cast("cpVect *", numbers + _CENTRE)[0],
         angle=numbers + _ANGLE,
         velocity=ffi.cast("cpVect *", numbers + _VELOCITY)[0],
@@ -138,7 +138,7 @@ def _knows_motion() -> bool:
     return bool(seen == expected)
 
 
-motion_of: Callable[[pymunk.Body], Motion] = _motion if _knows_motion() else public_motion
+motion_of: Callable[[pymunk.Body], ChipmunkMotion] = _motion if _knows_motion() else public_motion
 """The fastest way to a body's motion that this pymunk allows; valid as long as the body lives."""
 
 
