@@ -206,8 +206,9 @@ def test_a_seat_is_forgotten_with_its_real_name(page: Page, school: WallServer) 
     expect(page.get_by_role("dialog")).to_have_count(0)
     forgotten = [{"do": "forget seat", "seat": seat["number"]} for seat in (gone, here)]
     assert school.commands == forgotten
-    stored = page.evaluate("localStorage.getItem('ai4u-real-names')")
-    assert json.loads(stored) == {"9": "Alan Turing"}
+    # the class answers that the seat is forgotten, and then its name is, too
+    stored = "JSON.parse(localStorage.getItem('ai4u-real-names'))"
+    until_on(page, lambda: page.evaluate(stored) == {"9": "Alan Turing"})
 
 
 def load_names(page: Page, table: str) -> None:

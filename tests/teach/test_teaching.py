@@ -22,6 +22,7 @@ from ai4u_edu.teach.drives import DriveFolder
 from ai4u_edu.teach.messages import TeachPart
 from ai4u_edu.teach.scene_work import reason_against_teaching
 from tests.page.panel.rooms import Message, PanelPage, PanelRoom
+from tests.processes import command_line
 from tests.teach.driving import SEEDS, drive, steer, teaching_room
 from tests.waiting import until
 
@@ -156,7 +157,7 @@ def child() -> psutil.Process:
         found[:] = [
             each
             for each in psutil.Process().children()
-            if "ai4u_edu.teach.clone_process" in each.cmdline()
+            if "ai4u_edu.teach.clone_process" in command_line(each)
         ]
         return bool(found)
 

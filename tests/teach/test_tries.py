@@ -15,6 +15,7 @@ from ai4u_edu.teach import background, tries
 from ai4u_edu.teach.learning import STOPPED
 from ai4u_edu.teach.tasks import MODULES
 from tests.page.panel.rooms import PanelPage, PanelRoom
+from tests.processes import command_line
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow
@@ -113,7 +114,7 @@ def test_what_was_driven_is_kept_when_it_is_stopped_or_dies(
     (process,) = (
         each
         for each in psutil.Process().children()
-        if "ai4u_edu.teach.try_process" in each.cmdline()
+        if "ai4u_edu.teach.try_process" in command_line(each)
     )
     process.kill()
     part = page.part(

@@ -24,6 +24,7 @@ from ai4u_edu.learn.training.sweep.search_space import Parameter
 from ai4u_edu.scenes.scene_data import scene_data
 from tests.games.jobs.ray_cluster import RayCluster, ray_cluster
 from tests.learn.training.small import small_settings
+from tests.processes import command_line
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
@@ -145,7 +146,7 @@ def test_a_tournament_has_the_same_recordings_though_a_process_dies(tmp_path: Pa
         nonlocal ended
         ended += 1
         children = psutil.Process().children(recursive=True)
-        jobs = [each for each in children if "spawn_main" in " ".join(each.cmdline())]
+        jobs = [each for each in children if "spawn_main" in command_line(each)]
         if ended == 3:
             next(each for each in jobs if each.pid not in before).kill()
 

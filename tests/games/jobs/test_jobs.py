@@ -30,6 +30,7 @@ from ai4u_edu.games.jobs import (
 )
 from ai4u_edu.games.jobs.journal import count_done
 from tests.games.jobs import functions
+from tests.processes import command_line
 from tests.waiting import LIMIT_S
 
 pytestmark = pytest.mark.slow
@@ -164,7 +165,7 @@ def test_closing_ends_what_still_runs(name: str) -> None:
         started = [
             each
             for each in while_open
-            if each.pid not in before and "resource_tracker" not in " ".join(each.cmdline())
+            if each.pid not in before and "resource_tracker" not in command_line(each)
         ]
     assert len(started) >= 2
     # the system may need a moment for those that were killed
@@ -367,7 +368,7 @@ def test_what_is_no_cluster_at_an_address_is_told_and_nothing_is_left(
     started = [
         each
         for each in psutil.Process().children(recursive=True)
-        if each.pid not in before and "resource_tracker" not in " ".join(each.cmdline())
+        if each.pid not in before and "resource_tracker" not in command_line(each)
     ]
     assert psutil.wait_procs(started, LIMIT_S)[1] == []
 
