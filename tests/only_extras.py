@@ -41,7 +41,7 @@ class OnlyExtras(PathFinder):
         """Refuse from now on what was not imported yet."""
         sys.meta_path[sys.meta_path.index(PathFinder)] = self
 
-    def find_spec(  # type: ignore[override]
+    def find_spec(  # type: ignore[override]  # a class method there; this is an object
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         """Return None or raise an error for a refused module; find all others.

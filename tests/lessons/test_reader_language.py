@@ -60,7 +60,7 @@ def test_a_notebook_prints_errors_in_its_language(capsys: pytest.CaptureFixture[
     with pytest.raises(SceneError, match="você quis dizer 'box_chase'"):
         Scene.load("box_chas")
     with pytest.raises(ParameterError, match="parâmetro desconhecido") as caught:
-        RBMoveActuator(move_amuont=1)  # type: ignore[call-arg]
+        RBMoveActuator(move_amuont=1)  # type: ignore[call-arg]  # the mistake under test
     assert "unknown parameter" in text_of(caught.value), "as a text it can still be compared"
     check("00.1", lambda _percept: {"mov": [0, 0, 0, 0]})
     check("00.1", lambda _percept: None)  # what is wrong is found by an error's words
