@@ -97,12 +97,14 @@ class FrameCache:
         self._results: list[dict[int, dict[str, Any]]] = [{} for _ in episode.agents]
         self._asked: int | None = None
         self._prepared = False
+        self._is_making = False
         self._stopping = False
         self._changed = threading.Condition()
         self._thread = threading.Thread(target=self._run, name="frame-cache", daemon=True)
 
     def start(self) -> "FrameCache":
         """Start the thread, and return the cache itself."""
+        self._is_making = True
         self._thread.start()
         return self
 
@@ -126,7 +128,7 @@ class FrameCache:
     @property
     def is_alive(self) -> bool:
         """True while the thread can make snapshots."""
-        return self._thread.is_alive()
+        return self._is_making
 
     @property
     def ended(self) -> bool:
@@ -147,7 +149,7 @@ class FrameCache:
             if not self._is_ready(step):
                 self._asked = step
                 self._changed.notify_all()
-                self._changed.wait_for(lambda: self._is_ready(step) or self._has_ended, timeout)
+                self._changed.wait_for(lambda: self._is_ready(step) or not self._can_make, timeout)
             frame = self._frames[step] if self._is_ready(step) else None
         return None if frame is None else self._shown(frame, step)
 
@@ -178,8 +180,8 @@ class FrameCache:
         )
 
     @property
-    def _has_ended(self) -> bool:
-        return self._stopping or not self._thread.is_alive()
+    def _can_make(self) -> bool:
+        return self._is_making and not self._stopping
 
     def _run(self) -> None:
         try:
@@ -200,6 +202,8 @@ class FrameCache:
         finally:
             with self._changed:
                 self._count = 0 if self._count is None else self._count
+                # whoever waits looks now, while the thread is still alive, and is not woken again
+                self._is_making = False
                 self._changed.notify_all()
 
     def _prepare(self) -> Player | None:

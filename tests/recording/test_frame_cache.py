@@ -1,5 +1,7 @@
 """The frames that a cache replays equal the recorded ones, bit for bit."""
 
+import threading
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +13,7 @@ from ai4u_edu.recording import Episode, Recorder
 from ai4u_edu.recording.frame_cache import FrameCache
 from ai4u_edu.snapshot import AgentState, Snapshot, capture_snapshot, capture_static_scene
 from tests.recording.recorded_drives import GO, HOLD, LEFT, RESPAWN, WAIT, driver, field_of, take
+from tests.waiting import LIMIT_S
 
 
 def lived(name: str, decisions: int) -> tuple[Episode, dict[int, Snapshot]]:
@@ -175,3 +178,28 @@ def test_what_can_not_be_played_has_no_pictures_and_says_why() -> None:
     assert frame_cache.last == -1
     assert "the episode's scene can't be made" in frame_cache.problem
     frame_cache.stop()
+
+
+class Lingering(FrameCache):
+    """A cache whose thread lives on for a while after its work."""
+
+    over = threading.Event()
+
+    def _run(self) -> None:
+        super()._run()
+        assert self.over.wait(LIMIT_S)
+
+
+def test_whoever_waits_for_what_can_not_be_made_is_told_before_the_thread_is_gone() -> None:
+    episode = take("box_chase", decisions=5).episode
+    scene = episode.scene.model_copy(update={"agents": ({"body": "nobody"},)})
+    frame_cache = Lingering(replace(episode, scene=scene))
+    frame_cache.start()
+    with ThreadPoolExecutor(1) as pool:
+        try:
+            asked = pool.submit(frame_cache.snapshot, 0, timeout=None)
+            assert asked.result(LIMIT_S) is None
+        finally:
+            frame_cache.over.set()
+            frame_cache.stop()
+    assert not frame_cache.is_alive
