@@ -136,6 +136,7 @@ export class CodeEditor {
       changes: { from: 0, to: this.#view.state.doc.length, insert: text },
       selection: { anchor: 0 },
       effects: setStops.of([]),
+      userEvent: "input.replace", // a step of its own to undo, however soon it comes after another one
     });
     this.#isSetting = false;
     this.onStops([], null);
