@@ -22,7 +22,7 @@ import psutil
 from ai4u_edu.base.errors import AI4UError, text_of
 from ai4u_edu.base.process_family import kill_descendants
 from ai4u_edu.base.process_priority import lower_priority
-from ai4u_edu.games.jobs.processes import ProcessEngine
+from ai4u_edu.games.jobs.processes import ProcessEngine, core_count
 from ai4u_edu.games.tournament.contest import ContestResult
 from ai4u_edu.games.tournament.plan import TournamentPlan
 from ai4u_edu.games.tournament.run import run_tournament, write_results
@@ -74,7 +74,7 @@ def main() -> None:
 
 def _width() -> int:
     """Return the number of games at a time: half of the cores are left to others."""
-    return max(1, (os.cpu_count() or 1) // 2)
+    return max(1, core_count() // 2)
 
 
 def _end_with(owner: int) -> None:
