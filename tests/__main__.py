@@ -35,11 +35,9 @@ STATIC_CHECKS = {
     "mypy": ["-m", "mypy"],
     "imports": ["-c", LINT_IMPORTS],
 }
-CORES = os.cpu_count() or 2
-PARALLEL = ["-n", str(max(min(2 * CORES, 8), CORES)), "--max-worker-restart=0"]
-"""Tests wait for pages, servers and a world's time for half of theirs; each process takes 1.2 GB.
-In place of one that was ended xdist starts another one, and with ``--dist=loadfile`` it then waits
-for ever."""
+GB_EACH = 2.0
+"""Memory (GB) for each process that runs tests; it takes 1.2 GB with what it starts."""
+MAX_WORKERS = 16
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
@@ -48,6 +46,29 @@ LONG_RUNS = {
 }
 WEB = "web"
 NO_TESTS_COLLECTED = 5
+
+
+def workers(cores: int, memory_gb: float) -> int:
+    """Return how many processes run tests at a time.
+
+    Tests wait for pages, servers and a world's time for half of theirs.
+
+    Args:
+        cores: of the processor, which these processes may use.
+        memory_gb: of this machine.
+    """
+    wanted = max(min(2 * cores, 8), cores)
+    return int(max(1, min(wanted, MAX_WORKERS, memory_gb / GB_EACH)))
+
+
+def machine() -> tuple[int, float]:
+    """Return the cores that this process may use, and the memory (GB) of this machine."""
+    cores, memory_gb = os.cpu_count() or 2, float("inf")
+    if hasattr(os, "sched_getaffinity"):
+        cores = len(os.sched_getaffinity(0))
+    if hasattr(os, "sysconf"):
+        memory_gb = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
+    return cores, memory_gb
 
 
 def main() -> int:
@@ -125,7 +146,10 @@ def run_tests(
     if for_pytest:  # a few tests, chosen by hand
         return run_in_turn("pytest", [*pytest, *for_pytest])
     without_browser = " and not browser" if "browser" in failed else ""
-    commands = {"pytest": [*pytest, "-m", "not alone" + without_browser, *PARALLEL]}
+    # in place of one that was ended xdist starts another one, and with --dist=loadfile it then
+    # waits for ever
+    parallel = ["-n", str(workers(*machine())), "--max-worker-restart=0"]
+    commands = {"pytest": [*pytest, "-m", "not alone" + without_browser, *parallel]}
     if not options.fast:
         # only these files are read then
         alone = [

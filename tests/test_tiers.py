@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.__main__ import machine, workers
 from tests.tiers import ROOT, marks_of_file
 
 pytestmark = pytest.mark.slow
@@ -75,3 +76,19 @@ def test_fast_passes_in_an_environment_made_from_nothing(tmp_path: Path) -> None
     command = [str(python), "-m", "tests", "--fast"]
     done = subprocess.run(command, cwd=clone, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout[-5000:]
+
+
+@pytest.mark.parametrize(
+    ("cores", "memory_gb", "count"),
+    [(1, 8.0, 2), (2, 24.0, 4), (8, 8.0, 4), (64, 256.0, 16), (4, 1.0, 1), (4, float("inf"), 8)],
+)
+def test_as_many_processes_run_tests_as_the_machine_has_room_for(
+    cores: int, memory_gb: float, count: int
+) -> None:
+    assert workers(cores, memory_gb) == count
+
+
+def test_this_machine_is_known() -> None:
+    cores, memory_gb = machine()
+    assert cores >= 1
+    assert memory_gb > 0.5
