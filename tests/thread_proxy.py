@@ -26,6 +26,8 @@ class ThreadProxy:
         self._thread = threading.Thread(target=self._run, name="proxy", daemon=True)
         self._stopping = asyncio.Event()
         self._connections: set[asyncio.Task[None]] = set()
+        self._writers: list[asyncio.StreamWriter] = []
+        """Both ends of connections that are over."""
 
     def __enter__(self) -> Self:
         self._thread.start()
@@ -42,35 +44,46 @@ class ThreadProxy:
     async def _serve(self) -> None:
         server = await asyncio.start_server(self._accept, sock=self._listener)
         await self._stopping.wait()
-        server.close()
-        for task in self._connections:
-            task.cancel()
-        await asyncio.gather(*self._connections, return_exceptions=True)
+        while left := asyncio.all_tasks() - {asyncio.current_task()}:
+            for task in self._connections:
+                task.cancel()
+            await asyncio.gather(*left, return_exceptions=True)
+        server.close()  # not while it accepts a connection, which would stay open
+        closed = [each.wait_closed() for each in self._writers]
+        await asyncio.gather(*closed, return_exceptions=True)
+        await asyncio.sleep(0)  # connections that were just opened close in the loop's next turn
 
-    async def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        task = asyncio.current_task()
-        assert task is not None
-        self._connections.add(task)
+    def _accept(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         writers = [writer]
+        task = self._loop.create_task(self._connect(reader, writers))
+
+        def end(_: object) -> None:
+            for each in writers:
+                each.transport.abort()
+            self._writers += writers
+            self._connections.discard(task)
+
+        self._connections.add(task)
+        task.add_done_callback(end)  # it may be cancelled before it begins, and while it ends
+
+    async def _connect(
+        self, reader: asyncio.StreamReader, writers: list[asyncio.StreamWriter]
+    ) -> None:
         both: list[asyncio.Task[None]] = []
-        # the server may not be there, and the proxy may end
-        with suppress(OSError, asyncio.CancelledError):
+        with suppress(OSError):  # the server may not be there
             try:
                 await self.before_connection()
                 far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self._port)
                 writers.append(far_writer)
                 both = [
                     asyncio.create_task(self.direction(reader, far_writer, writers)),
-                    asyncio.create_task(self.direction(far_reader, writer, writers)),
+                    asyncio.create_task(self.direction(far_reader, writers[0], writers)),
                 ]
                 await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
             finally:
                 for each in both:
                     each.cancel()
                 await asyncio.gather(*both, return_exceptions=True)
-                for each_writer in writers:
-                    each_writer.transport.abort()
-                self._connections.discard(task)
 
     async def before_connection(self) -> None:
         """Do what comes before a connection to the server is opened."""
