@@ -1,5 +1,6 @@
-"""Processes that tests look for."""
+"""Processes and threads that tests look for."""
 
+import threading
 from contextlib import suppress
 
 import psutil
@@ -13,3 +14,21 @@ def command_line(process: psutil.Process) -> str:
     with suppress(psutil.NoSuchProcess):  # a zombie is one
         return " ".join(process.cmdline())
     return ""
+
+
+def is_server(process: psutil.Process) -> bool:
+    """Return True if a process waits for connections; False for one that has ended."""
+    return bool(ports_of(process))
+
+
+def ports_of(process: psutil.Process) -> set[int]:
+    """Return the ports of this machine at which a process waits; none for one that has ended."""
+    with suppress(psutil.NoSuchProcess):
+        connections = process.net_connections("tcp")
+        return {each.laddr.port for each in connections if each.status == psutil.CONN_LISTEN}
+    return set()
+
+
+def is_own_thread() -> bool:
+    """Return False in a thread that another test left behind with its world."""
+    return threading.current_thread() is threading.main_thread()

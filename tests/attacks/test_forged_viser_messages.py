@@ -92,6 +92,16 @@ def state_of(room: Room) -> dict[int, Any]:
     return {number: copy(each) for number, each in web._broadcast_buffer.message_from_id.items()}
 
 
+@pytest.fixture(autouse=True)
+def nothing_said_before(
+    caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Let what other tests have left tell of its end now, and not in this test's log."""
+    gc.collect()
+    caplog.clear()
+    capfd.readouterr()
+
+
 def unharmed(
     room: Room, caplog: pytest.LogCaptureFixture, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -1,6 +1,7 @@
 """A class's folder that is nearly full, and full: the teacher is told, and nothing more is kept."""
 
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import psutil
@@ -74,5 +75,8 @@ def test_a_full_folder_takes_no_more_work_and_lets_those_who_are_there_go_on(
 
 def limits_of_files(served: ServedClass) -> list[int]:
     """Return how large a file each process below the class's may write."""
-    children = psutil.Process(served.process.pid).children(recursive=True)
-    return [each.rlimit(psutil.RLIMIT_FSIZE)[0] for each in children]
+    found = []
+    for each in psutil.Process(served.process.pid).children(recursive=True):
+        with suppress(psutil.NoSuchProcess):  # it has ended meanwhile
+            found.append(each.rlimit(psutil.RLIMIT_FSIZE)[0])
+    return found

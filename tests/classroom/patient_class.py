@@ -1,4 +1,4 @@
-"""``ai4u-edu class`` with time limits that no busy machine reaches.
+"""``ai4u-edu class`` with limits that no machine reaches or changes.
 
 ``python -m tests.classroom.patient_class [--replace MODULE.NAME=NUMBER ...] [OPTION ...]``
 
@@ -35,7 +35,7 @@ def be_patient() -> None:
     import dataclasses
     import functools
 
-    from ai4u_edu.classroom import gateway, local_rooms, room_watch
+    from ai4u_edu.classroom import gateway, live_class, local_rooms, room_watch
     from ai4u_edu.games.jobs import isolated
     from ai4u_edu.page.server.limits.timeouts import DEFAULT_TIMEOUTS
     from tests.waiting import LIMIT_S
@@ -47,6 +47,8 @@ def be_patient() -> None:
     of_rooms = ("answer_timeout_s", "start_timeout_s", "end_timeout_s")
     patient = functools.partial(room_watch.RoomLimits, **dict.fromkeys(of_rooms, LIMIT_S))
     room_watch.RoomLimits = patient  # type: ignore[assignment, misc]  # it makes them, too
+    # one practice at a time, as on two cores: tests wait for a place in its line
+    live_class.core_count = lambda: 2  # type: ignore[attr-defined]
     # with the lowest priority they would get no time beside the tests' other work
     replace("ai4u_edu.teach.background", "NICENESS", 0)
     isolated.serve_jobs = serve_jobs_with_usual_priority  # type: ignore[attr-defined]

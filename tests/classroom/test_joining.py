@@ -11,6 +11,7 @@ from ai4u_edu.member.joining import ANSWER_TIMEOUT_S, class_address, is_seat_val
 from ai4u_edu.page.server.limits.attempts import MAX_CODE_WAIT_S
 from tests.classroom.reserved_port import reserved_port
 from tests.classroom.served_class import CODE, ServedClass, served_class
+from tests.page.server import http_client
 from tests.page.server.rooms import served
 
 
@@ -44,9 +45,10 @@ def test_a_name_that_is_taken_meanwhile_is_left_to_the_other(
     there: ServedClass, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     taken = join(there.url, CODE).name
-    names = iter([[taken], [taken, "Blue Otter"]])
+    (free, *_) = http_client.get(f"{there.url}api/names").json()["names"]
+    names = iter([[taken], [taken, free]])
     monkeypatch.setattr("ai4u_edu.member.joining._names", lambda client: next(names))
-    assert join(there.url, CODE).name == "Blue Otter"
+    assert join(there.url, CODE).name == free
 
 
 def test_a_seat_file_gives_the_same_seat_and_tells_nothing_else(

@@ -41,12 +41,15 @@ def number_of(served: ServedClass) -> int:
 
 
 def test_a_seat_gets_a_link_and_the_present_state(served: ServedClass) -> None:
-    ada = served.joined(name="Wise Owl")
+    ada = served.joined()
+    (name,) = [
+        seat["name"] for seat in served.state()["seats"] if seat["number"] == number_of(served)
+    ]
     with RawLink(served, ada) as link:
         welcome = link.next(LinkWelcome)
-        assert (welcome.version, welcome.name) == (VERSION, "Wise Owl")
+        assert (welcome.version, welcome.name) == (VERSION, name)
         people = link.next(People, lambda message: message.people[0].is_here)
-        assert [each.name for each in people.people] == ["Wise Owl"]
+        assert [each.name for each in people.people] == [name]
         kinds = {type(each) for each in link.received}
         assert {LinkWelcome, Assignment, Attention, People} <= kinds
 

@@ -30,6 +30,7 @@ from ai4u_edu.wire.class_link import Practise, Practised
 from tests.classroom.served_class import ServedClass, served_class
 from tests.classroom.test_trainings import folder_of, process_of
 from tests.page.panel.rooms import PanelPage
+from tests.processes import is_server
 from tests.waiting import LIMIT_S, until, until_async
 
 SOON = 256
@@ -220,6 +221,11 @@ def learning_of(served: ServedClass, room: str) -> str:
     return str(card["learning"])
 
 
+def is_awake(served: ServedClass, room: str) -> bool:
+    (card,) = [card for card in served.state()["rooms"] if card["id"] == room]
+    return bool(card["is_running"])
+
+
 @pytest.mark.slow
 def test_a_student_practises_waits_pauses_and_gets_the_network(served: ServedClass) -> None:
     with page_of(served)[0] as hers, page_of(served)[0] as his:
@@ -279,7 +285,7 @@ def test_a_teacher_sees_who_practises_stops_it_and_hands_the_network_out(
     one, two = [(folder / "box_chase-1.onnx").read_bytes() for folder in folders]
     assert one == two
     assert "Ada" not in (folders[1] / "box_chase-1.json").read_text()
-    assert not [*(served.folder / "rooms" / other / "handed_out").iterdir()]
+    until(lambda: not [*(served.folder / "rooms" / other / "handed_out").iterdir()])
 
 
 @pytest.mark.slow
@@ -309,8 +315,12 @@ def test_a_practice_goes_on_while_its_room_sleeps(
     with open_page() as page:
         page.done("teach_practise", steps=8192 if is_over_before else LATE, weights=AWAY)
         page.part("teach", lambda p: p["practice"] and p["practice"]["decisions"] > 0)
-    assert served.command("sleep", room=folder.name).status_code == 200
+        process = process_of(served, "practice_process")
+        process.suspend()  # so that it is not over before its room sleeps
     (run,) = [Run(practice / "run") for practice in (folder / PRACTICES).glob("*.practice")]
+    assert served.command("sleep", room=folder.name).status_code == 200
+    until(lambda: not is_awake(served, folder.name))
+    process.resume()
     until(lambda: len(run.checks()) > 1)
     if is_over_before:
         until(lambda: learning_of(served, folder.name).startswith("practised"))
@@ -346,11 +356,7 @@ def test_a_practice_survives_a_kill_of_its_room_and_of_the_class(tmp_path: Path)
             learner = process_of(served, "practice_process")
             folder = tmp_path / "rooms" / room
             (run,) = [Run(practice / "run") for practice in (folder / PRACTICES).glob("*.practice")]
-            (room_process,) = [
-                each
-                for each in class_process.children(recursive=True)
-                if any(one.status == psutil.CONN_LISTEN for one in each.net_connections("tcp"))
-            ]
+            (room_process,) = filter(is_server, class_process.children(recursive=True))
             room_process.kill()
             count = len(run.checks())
             until(lambda: len(run.checks()) > count)  # the room's end is nothing to it

@@ -170,7 +170,7 @@ def test_only_the_own_browser_and_the_teacher_read_a_program(served: ServedClass
 
 @pytest.mark.slow
 def test_bad_input_gets_a_sentence_and_many_requests_are_refused(served: ServedClass) -> None:
-    eve = served.joined(name="Calm Owl")
+    eve = served.joined()
     answer = put(eve, source="x" * (MAX_PROGRAM_CHARS + 1))
     assert (answer.status_code, "100000 characters" in answer.json()["problem"]) == (422, True)
     assert "body of at most" in put(eve, source="x" * 10**6).json()["problem"]
@@ -271,7 +271,7 @@ def test_programs_outlast_a_crash_are_in_the_zip_files_and_forgotten(tmp_path: P
 
 @pytest.mark.slow
 def test_a_starting_program_comes_with_an_assignment(served: ServedClass) -> None:
-    gus = served.joined(name="Swift Crab")
+    gus = served.joined()
     source = f"{MARKUP}{RUNS}"
     with RawLink(served, gus) as link:
         link.send(state())

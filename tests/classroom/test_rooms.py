@@ -7,6 +7,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 import httpx
@@ -15,12 +16,12 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.page.server.proxy import MAX_UPWARD_BYTES
-from ai4u_edu.remote import RemoteError
-from ai4u_edu.remote import connect as connect_script
+from ai4u_edu.remote import RemoteError, connect
 from tests.classroom.served_class import CODE, ServedClass, served_class
 from tests.classroom.student_page import open_picture, python_lines, script_address
 from tests.page.server import http_client
 from tests.page.server.rooms import Page, open_socket
+from tests.processes import is_server, ports_of
 from tests.waiting import LIMIT_S, Deadline, until
 
 pytestmark = pytest.mark.slow
@@ -39,6 +40,9 @@ settings = RoomSettings(scene="box_chase", learns_in_class=True, class_folder=fo
 with Room(settings):
     print([each for each in sorted(sys.modules.keys() - shared) if each.startswith("ai4u_edu")])
 """
+
+
+connect_script = partial(connect, patience=LIMIT_S)
 
 
 @pytest.fixture(scope="module")
@@ -88,12 +92,8 @@ def test_the_room_can_not_be_entered_beside_the_class(served: ServedClass) -> No
     ada = served.joined()
     ada.get("healthz")
     room = ada.room.split("/")[2]
-    ports = {
-        each.laddr.port
-        for process in psutil.Process(served.process.pid).children(recursive=True)
-        for each in process.net_connections("tcp")
-        if each.status == psutil.CONN_LISTEN
-    }
+    children = psutil.Process(served.process.pid).children(recursive=True)
+    ports = {port for process in children for port in ports_of(process)}
     assert ports
     for port in ports:
         try:
@@ -297,8 +297,5 @@ def test_rooms_know_the_teachers_blocks(tmp_path: Path) -> None:
 
 def _room_processes(served: ServedClass) -> list[psutil.Process]:
     """Return the processes that serve a port, without the class itself."""
-    return [
-        each
-        for each in psutil.Process(served.process.pid).children(recursive=True)
-        if any(one.status == psutil.CONN_LISTEN for one in each.net_connections("tcp"))
-    ]
+    children = psutil.Process(served.process.pid).children(recursive=True)
+    return [each for each in children if is_server(each)]

@@ -1,6 +1,7 @@
 """Seats: joining, coming back, and what a teacher does with them."""
 
 import collections
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -14,8 +15,9 @@ from ai4u_edu.classroom.store import SeatRow
 
 
 @pytest.fixture
-def store(tmp_path: Path) -> ClassStore:
-    return ClassStore(tmp_path)
+def store(tmp_path: Path) -> Iterator[ClassStore]:
+    with ClassStore(tmp_path) as store:
+        yield store
 
 
 @pytest.fixture

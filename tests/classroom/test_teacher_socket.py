@@ -82,6 +82,11 @@ def test_everybody_sees_no_progress_and_nobody_who_needs_help(served: ServedClas
     assert all("help" not in each and "why" not in each for each in event["rooms"])
 
 
+def has_told_all(room: dict[str, Any]) -> bool:
+    """Return True once its error is there and what was sent last, its state."""
+    return "not</i>" in room["error"] and room["status"] == "driving"
+
+
 def test_scenes_are_assigned_to_one_or_all(served: ServedClass) -> None:
     ada, ben = served.joined(), served.joined()
     with RawLink(served, ada) as one:
@@ -96,7 +101,7 @@ def test_scenes_are_assigned_to_one_or_all(served: ServedClass) -> None:
             one.send(Work("Mine", OWN))
             one.send(state())
             with TeacherSocket(served) as wall:
-                wall.next("class", lambda e: any("not</i>" in r["error"] for r in e["rooms"]))
+                wall.next("class", lambda e: any(has_told_all(r) for r in e["rooms"]))
             source = {"room": first}
             answer = served.command("assign", rooms="all", scene=source, same_seed=True)
             assert answer.status_code == 200, answer.text

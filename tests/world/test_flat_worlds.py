@@ -1,6 +1,5 @@
 """A world without height has no cost for it: no Python code for height runs in its ticks."""
 
-import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -10,6 +9,7 @@ import pytest
 from ai4u_edu.world import Body, BoxShape, CircleShape, World
 from ai4u_edu.world.contacts import Contacts
 from ai4u_edu.world.physics import Height
+from tests.processes import is_own_thread
 
 Handler = Callable[[pymunk.Arbiter, pymunk.Space, Any], None]
 
@@ -19,11 +19,6 @@ class Calls:
 
     steps = 0
     handlers = 0
-
-
-def is_own_thread() -> bool:
-    """Return False in a thread that another test left behind with its world."""
-    return threading.current_thread() is threading.main_thread()
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from ai4u_edu.world import (
     World,
 )
 from ai4u_edu.world.placement import Places
+from tests.processes import is_own_thread
 from tests.world.random_scene import SEEDS, crowded, state
 
 
@@ -138,6 +139,8 @@ def test_places_are_freed_as_soon_as_they_are_found(monkeypatch: pytest.MonkeyPa
 
     def note(self: Places, *args: Any) -> None:
         inner(self, *args)
+        if not is_own_thread():
+            return
         kept.extend([weakref.ref(self), weakref.ref(self._bodies)])
 
     monkeypatch.setattr(Places, "occupy", note)

@@ -1,7 +1,6 @@
 """Rays make no more queries than necessary."""
 
 import math
-import threading
 from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
@@ -11,17 +10,13 @@ import pytest
 
 from ai4u_edu.world import BoxShape, CircleShape, RayFan, RayGrid, World, rays
 from ai4u_edu.world.native import segments as _segments
+from tests.processes import is_own_thread
 
 
 class Queries:
     """Counts of queries in the test's own thread, by kind."""
 
     first = every = point = 0
-
-
-def is_own_thread() -> bool:
-    """Return False in a thread that another test left behind with its world."""
-    return threading.current_thread() is threading.main_thread()
 
 
 @pytest.fixture
