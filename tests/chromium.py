@@ -168,6 +168,8 @@ def close_page(page: Page) -> None:
         return
     origin = urljoin(page.url, "/").rstrip("/")
     if origin.startswith("http"):
+        for each in context.pages:  # what comes late is not stored for the next test
+            each.evaluate("Storage.prototype.setItem = () => {}")
         session = context.new_cdp_session(page)
         what = {"origin": origin, "storageTypes": "local_storage,indexeddb"}
         session.send("Storage.clearDataForOrigin", what)

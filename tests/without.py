@@ -28,7 +28,7 @@ env.step(env.action_space.sample())
 """Program that steps an environment."""
 ACT = """
 from ai4u_edu.remote import connect
-with connect({url!r}, agent="0") as robot:
+with connect({url!r}, agent="0", patience=180) as robot:
     robot.act(move=[1, 0, 0, 0])
     print("done" in robot.sense())
 """

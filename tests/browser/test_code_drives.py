@@ -43,6 +43,7 @@ class CodeTab(WithEditor):
     def __init__(self, page: Page) -> None:
         self.page = page
         page.get_by_role("tab", name="Code").click()
+        expect(self.editor).to_contain_text("def ")  # it would take the place of what is written
         self.mistake = page.locator(".ai4u-code-mistake")
 
     @property
@@ -154,15 +155,21 @@ def test_stop_gives_the_robot_back(server: Played, tab: CodeTab) -> None:
     tab.page.keyboard.up("KeyW")
 
 
-def test_back_in_time_stands_what_the_program_did_at_that_decision(tab: CodeTab) -> None:
+def test_back_in_time_stands_what_the_program_did_at_that_decision(
+    server: Played, tab: CodeTab
+) -> None:
     counts = "global count\n    count += 1\n    print('count', count)\n    "
     tab.write(f'count = 0\n{BODY}{counts}return {{"move": [0, 0.3, 0, 0]}}')
     tab.press("Run")
     expect(tab.state).to_contain_text(re.compile(r"decision ([5-9]|\d\d)"))
     tab.press("Stop")
+    until(lambda: "Remote" not in agent(server)["brain"])
+    steps = agent(server)["steps"]
+    until(lambda: agent(server)["steps"] > steps + 1)
     tab.page.get_by_role("tab", name="Past").click()
     tab.page.get_by_role("button", name="Current episode").click()
-    expect(tab.page.get_by_text(re.compile("Past: episode .* step"))).to_be_visible()
+    # the end, if no decision was taken while it was made
+    expect(tab.page.get_by_text(re.compile("Past: episode .* (step|the end)"))).to_be_visible()
     tab.page.get_by_role("tab", name="Code").click()
     moment = tab.page.locator(".ai4u-code-moment")
     words = moment.get_by_role("status")

@@ -54,6 +54,7 @@ def opened(chromium: Browser, server: Played, width: int, height: int) -> Page:
 
 
 def check(page: Page) -> None:
+    page.evaluate("document.fonts.ready.then(() => 0)")
     assert page.evaluate("document.documentElement.scrollWidth - innerWidth") <= 0
     assert cut_texts(page) == []
     assert english_texts(page, LANGUAGE) == set()

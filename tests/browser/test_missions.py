@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from ai4u_edu.missions.mission import CONTROLS, library_missions
+from tests.browser.code_page import set_limits
 from tests.browser.panel_page import PanelPage, panel_page, panel_room
 from tests.browser.plain_page import WITHOUT_VISER
 from tests.chromium import new_page
@@ -273,7 +274,8 @@ def test_the_card_fits_and_covers_no_key(
 def test_a_banner_lies_beside_the_card(
     chromium: Browser, room: Room, width: int, height: int, is_folded: bool
 ) -> None:
-    with panel_page(chromium, room, width=width, height=height) as page:
+    still = {"reduced_motion": "reduce"}
+    with panel_page(chromium, room, width=width, height=height, **still) as page:
         page.page.evaluate(OPEN)
         page.panel.parts["mission"] = {**PART, "light": ["Keys"]}
         page.page.reload()
@@ -310,12 +312,16 @@ def test_an_open_panel_ends_below_the_card_on_a_phone_in_a_class(
         page.page.evaluate(
             "document.documentElement.style.setProperty('--ai4u-class-height', '49px')"
         )
-        box = card(page).bounding_box()
-        panel = page.page.locator(".ai4u-panel-head").bounding_box()
-        assert box is not None
-        assert panel is not None
-        assert box["y"] >= 49
-        assert panel["y"] >= box["y"] + box["height"]
+        head = page.page.locator(".ai4u-panel-head")
+
+        def is_below() -> bool:
+            of_card, of_panel = card(page).bounding_box(), head.bounding_box()
+            assert of_card is not None
+            assert of_panel is not None
+            below = of_card["y"] + of_card["height"]
+            return of_card["y"] >= 49 and of_panel["y"] >= below
+
+        page.until(is_below)  # the panel follows the card a frame later
 
 
 def test_a_person_does_the_first_steps_by_keys(chromium: Browser) -> None:
@@ -350,6 +356,7 @@ def test_a_function_is_called_in_the_page_and_judged_by_the_room(chromium: Brows
             'localStorage["ai4u-mission-"] ??= \'{"mission": "code-9", "step": 0}\''
         )
         page.goto(served.url)
+        set_limits(page, programS=1)
         editor = page.get_by_role("textbox", name="Your function")
         expect(editor).to_contain_text("def speed_for(distance, seconds):")
         check = page.get_by_role("button", name="Check", exact=True)
@@ -418,8 +425,12 @@ def test_only_controls_that_exist_are_lit(chromium: Browser) -> None:
         for tab in ("Drive", "Build", "World", "Code"):
             page.get_by_role("tab", name=tab, exact=True).click()
             expect(page.locator(".ai4u-tabpanel:visible button:visible").first).to_be_visible()
+            if tab in ("Build", "World"):
+                expect(page.locator(".ai4u-palette-entry:visible").first).to_be_visible()
             if tab == "Build":
-                page.locator(".ai4u-tabpanel:visible .ai4u-card-head").first.click()  # has "More"
+                page.locator(".ai4u-tabpanel:visible .ai4u-card-head").first.click()
+                more = page.locator(".ai4u-tabpanel:visible summary").filter(has_text="More")
+                expect(more.first).to_be_visible()
             found |= set(page.evaluate(script, list(CONTROLS)))
         page.context.close()
     # the tab Teach needs a folder for a person's work

@@ -147,9 +147,9 @@ def test_the_cameras_stand_in_one_row(desk: PanelPage, width: int, height: int) 
         unfold.click()
     cameras = desk.page.get_by_role("group", name="Camera").get_by_role("button")
     expect(cameras).to_have_count(5)
-    boxes = [camera.bounding_box() for camera in cameras.all()]
-    assert len({box and box["y"] for box in boxes}) == 1
-    assert all(box and 0 <= box["x"] <= width - box["width"] for box in boxes)
+    boxes = cameras.evaluate_all("all => all.map((each) => each.getBoundingClientRect().toJSON())")
+    assert len({box["y"] for box in boxes}) == 1
+    assert all(0 <= box["x"] <= width - box["width"] for box in boxes)
     desk.page.set_viewport_size({"width": 1280, "height": 1000})
 
 

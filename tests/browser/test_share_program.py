@@ -139,7 +139,9 @@ def copied(page: Page, server: Played) -> str:
     connected(page)
     until(lambda: server.health()["scene"] == "Maze")
     page.get_by_role("tab", name="Code").click()
-    page.get_by_role("textbox", name="Program in Python").click()
+    editor = page.get_by_role("textbox", name="Program in Python")
+    expect(editor).to_contain_text("def ")  # it would take the place of what is written
+    editor.click()
     page.keyboard.press("ControlOrMeta+a")
     page.keyboard.insert_text(SHARED)
     page.get_by_role("button", name="Copy link", exact=True).last.click()

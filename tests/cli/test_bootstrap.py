@@ -43,6 +43,7 @@ def test_a_second_call_does_not_run_pip(made: Path) -> None:
 
 
 def test_changes_are_installed_and_extras_add_up(made: Path) -> None:
+    bootstrap.ensure(made, ["dev"])
     before = builds(made)
     bootstrap.ensure(made, ["train"])
     assert builds(made) == before + 1

@@ -14,7 +14,8 @@ from tests.waiting import LIMIT_S, until
 
 
 def drive_off(room: Joined) -> None:
-    """Put the first agent over the void."""
+    """Put the first agent over the void, once the member watches its episode."""
+    room.poll()
     room.runner.submit(lambda: room.runner.sim.agents[0].body.move_to(40.0, 0.0)).result(LIMIT_S)
 
 

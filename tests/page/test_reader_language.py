@@ -14,6 +14,7 @@ from ai4u_edu.page.panel.field_hints import FIELD_HINTS
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.scenes import Scene
 from tests.page.panel.rooms import PanelPage, PanelRoom, panel_room
+from tests.page.server import http_client
 from tests.page.server.rooms import Room, served
 
 
@@ -31,7 +32,7 @@ def _no_option(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def page(room: Room, path: str, language: str) -> httpx.Response:
-    return httpx.get(room.url + path, headers={"Accept-Language": language})
+    return http_client.get(room.url + path, headers={"Accept-Language": language})
 
 
 @pytest.mark.parametrize("path", ["", "start"])
@@ -53,7 +54,7 @@ def test_a_page_says_its_language_and_holds_its_texts(
 def test_a_browser_that_has_a_page_gets_it_in_another_language(room: Room) -> None:
     etag = page(room, "", "en").headers["etag"]
     headers = {"Accept-Language": "pt-BR", "If-None-Match": etag}
-    assert httpx.get(room.url, headers=headers).status_code == 200
+    assert http_client.get(room.url, headers=headers).status_code == 200
 
 
 def test_html_is_translated(room: Room) -> None:

@@ -894,7 +894,7 @@ def test_a_closed_brain_leaves_nothing_behind(script: UDPScript) -> None:
             sim.tick()
         brain.close()
         brain.close()
-    assert psutil.Process().num_fds() <= before
+    until(lambda: psutil.Process().num_fds() <= before)  # other threads may open files, too
     assert not [each for each in threading.enumerate() if f":{script.port}" in each.name]
 
 

@@ -10,6 +10,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from ai4u_edu.base.errors import ActionError, ParameterError
+from ai4u_edu.blocks.brains import remote_status
 from ai4u_edu.page.server.limits.rate_limit import RateLimit
 from ai4u_edu.page.server.scripts import sockets
 from ai4u_edu.remote import LostError, RefusedError, RemoteError
@@ -25,7 +26,7 @@ from tests.remote.rooms import (
     patient_rules,
     unused_address,
 )
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 
 def refused(room: Room, code: str, **hello: object) -> str:
@@ -92,7 +93,8 @@ def script_in_snapshot(room: Room) -> Any:
     return get(room, "api/snapshot")["agents"][0]["script"]
 
 
-def test_a_bad_action_is_answered_and_never_applied() -> None:
+def test_a_bad_action_is_answered_and_never_applied(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(remote_status, "WARNING_INTERVAL_S", LIMIT_S)  # the first one stays
     with log_room() as room, Script(room) as script:
         script.hello()
         percept = script.percept()

@@ -9,6 +9,7 @@ import pytest
 
 from ai4u_edu import RemoteBrain
 from ai4u_edu.base.log_limit import LOG_INTERVAL_S
+from ai4u_edu.blocks.brains.links import ai4u
 from ai4u_edu.blocks.brains.remote_status import RemoteStatus
 from ai4u_edu.page.server.scripts import ScriptReport
 from ai4u_edu.page.server.scripts.report import EVENTS_PER_S, MAX_WAITING_LINES
@@ -165,7 +166,10 @@ def test_a_script_can_not_command_the_terminal(report: ScriptReport, told: list[
     assert len(told[0]) <= 300
 
 
-def test_an_ai4u_script_joins_acts_in_vain_and_leaves(told: list[str]) -> None:
+def test_an_ai4u_script_joins_acts_in_vain_and_leaves(
+    told: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ai4u, "CONNECT_INTERVAL_S", LIMIT_S)  # it asks the script once
     with udp_script() as script:
         brain = RemoteBrain(port=script.port, receive_timeout=round(LIMIT_MS))
         runner = Runner(small_sim(brains=[brain]))
@@ -197,8 +201,10 @@ def test_the_end_of_the_world_is_nothing_that_an_ai4u_script_did(
         return looks[-1]
 
     monkeypatch.setattr(RemoteBrain, "status", noted_status)
+    monkeypatch.setattr(ai4u, "CONNECT_INTERVAL_S", LIMIT_S)  # it asks the script once
     with udp_script() as script:
-        runner = Runner(small_sim(brains=[RemoteBrain(port=script.port)]))
+        brain = RemoteBrain(port=script.port, receive_timeout=round(LIMIT_MS))
+        runner = Runner(small_sim(brains=[brain]))
         runner.start()
         with ScriptReport(runner, told.append):
             begin(script)

@@ -10,7 +10,11 @@ import pytest
 from tests.remote.rooms import Script, log_room
 from tests.waiting import LIMIT_S
 
-HEAD = "import sys\nfrom ai4u_edu.remote import AsyncRobot, RemoteEnv, connect\nurl = sys.argv[1]\n"
+HEAD = """import sys
+from ai4u_edu.remote import AsyncRobot, RemoteEnv, connect, dialogue
+url = sys.argv[1]
+dialogue.ATTEMPT_TIMEOUT_S = float(sys.argv[2])
+"""
 CONNECT = "connect(url, 'a', patience=0)"
 ROBOT = "robot = connect(url, 'b', patience=float(sys.argv[2]))\n"
 ENV = "RemoteEnv(url, agent='a', patience=0)"

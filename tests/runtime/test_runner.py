@@ -44,13 +44,16 @@ def test_pause_lets_keys_go_and_resume_goes_on(runner: Runner) -> None:
     wait_for_tick(runner, tick + 10)
 
 
-def test_commands_run_between_two_decisions_in_the_runners_thread() -> None:
+def test_commands_run_between_two_decisions_in_the_runners_thread(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # no decision takes so long that a command runs in the middle of it
+    monkeypatch.setattr("ai4u_edu.runtime.runner.DECISION_WAIT_S", LIMIT_S)
     sim = Scene.load("box_chase").build()
 
     def look() -> tuple[bool, str]:
         return sim.between_decisions(), threading.current_thread().name
 
-    # by a clock of its own no decision takes so long that a command runs in the middle of it
     with running(Runner(sim, seed=1, clock=ManualClock())) as runner:
         for _ in range(10):
             assert runner.submit(look).result(LIMIT_S) == (True, "runner")

@@ -310,9 +310,11 @@ def test_a_network_practises_against_the_scenes_player_itself_and_a_network(tmp_
 
 
 def test_whoever_has_taken_over_goes_on_driving(room: PanelRoom, page: PanelPage) -> None:
-    page.done("teach_practise", steps=4 * SOON, weights={})
+    page.done("teach_practise", steps=LATE, weights=AWAY)
     until(lambda: controller(room) is not None)
+    page.part("teach", lambda p: p["practice"] and p["practice"]["rewards"])
     room.editor.set_driver("0", "brain:0").result()
+    page.done("teach_stop_practising")
     page.part("teach", lambda part: part["networks"])
     assert room.editor.driver_of("0") == "brain:0"
 

@@ -1,5 +1,6 @@
 """A network that does what it was shown."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -139,6 +140,15 @@ def test_a_whole_number_has_an_input_for_each_value() -> None:
     assert not any(levels_of(Scene.load("box_chase").build().agents[0]))
 
 
+@pytest.fixture
+def seeded_torch() -> Iterator[None]:
+    """Begin with the same weights, whichever tests came before."""
+    with torch.random.fork_rng(devices=[]):
+        torch.manual_seed(0)
+        yield
+
+
+@pytest.mark.usefixtures("seeded_torch")
 def test_the_ends_of_a_range_are_reached_and_not_more() -> None:
     """A clone must not output small values where the teacher output 0: a small jump is a jump."""
     from gymnasium.spaces import Box

@@ -196,9 +196,9 @@ def test_a_script_elsewhere_is_not_listened_to_while_a_person_drives(mode: Any) 
             until(lambda: does(-0.5))
             assert agent.brain is brain
             until(lambda: brain.status().reason == "")
-            assert steps == sorted(steps)
         script.join(LIMIT_S)
         assert not script.is_alive()
+        assert steps == sorted(steps)
         until(lambda: brain_of(room) == "LocalBrain(ScriptController)")
 
 

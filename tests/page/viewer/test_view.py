@@ -1,3 +1,4 @@
+import asyncio
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -20,7 +21,7 @@ from ai4u_edu.page.viewer.scene.view import (
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
 from tests.page.viewer.pages import Page, page
-from tests.waiting import until
+from tests.waiting import LIMIT_S, until
 
 PLACE = (1.0, -2.0, 80.0)
 """Somewhere a person might move the camera."""
@@ -33,6 +34,7 @@ class Watched:
         (client,) = viewer.server.get_clients().values()
         self.now = 100.0
         self.page, self.client = here, client
+        self.loop = viewer.server.get_event_loop()
         self.view = View(client, viewer.server.initial_camera, clock=lambda: self.now)
 
     @property
@@ -44,6 +46,8 @@ class Watched:
         before = self.camera.update_timestamp
         self.page.report_camera(place, size)
         until(lambda: self.camera.update_timestamp > before)
+        # the view is told in the same turn of the loop, after the camera has it
+        asyncio.run_coroutine_threadsafe(asyncio.sleep(0), self.loop).result(LIMIT_S)
 
     def sent(self) -> int:
         """The number of messages sent to this page alone."""
