@@ -16,6 +16,17 @@ def command_line(process: psutil.Process) -> str:
     return ""
 
 
+def children_that_run(module: str, parent: psutil.Process | None = None) -> list[psutil.Process]:
+    """Return the children that run a module.
+
+    Args:
+        module: its full name.
+        parent: of the children; default: this process.
+    """
+    children = (parent or psutil.Process()).children()
+    return [each for each in children if module in command_line(each)]
+
+
 def is_server(process: psutil.Process) -> bool:
     """Return True if a process waits for connections; False for one that has ended."""
     return bool(ports_of(process))

@@ -3,6 +3,7 @@
 import hashlib
 import re
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -284,6 +285,17 @@ def test_programs_are_kept_for_each_scene(tab: CodePage) -> None:
     assert tab.text == PROGRAM
 
 
+@contextmanager
+def standing_clock(page: Page, ahead_ms: int = 0) -> Iterator[None]:
+    """Let a page's clock stand, at a time that is a while ahead."""
+    stand = "(ahead) => { window.now = Date.now; const at = now() + ahead; Date.now = () => at; }"
+    page.evaluate(stand, ahead_ms)
+    try:
+        yield
+    finally:
+        page.evaluate("Date.now = window.now")
+
+
 def test_an_earlier_run_is_taken_back(tab: CodePage) -> None:
     runs = tab.page.get_by_label("Earlier runs")
     tab.write(PROGRAM)
@@ -293,12 +305,11 @@ def test_an_earlier_run_is_taken_back(tab: CodePage) -> None:
     tab.press("Run")
     expect(runs.locator("option")).to_have_count(4)
     # long after what was written, and both in the same moment: the editor joins what is typed so
-    tab.page.evaluate("window.now = Date.now; const at = Date.now() + 1e4; Date.now = () => at")
-    runs.select_option(index=2)
-    assert tab.text == PROGRAM
-    runs.select_option(label="The first program")
-    assert "turn = 0.3" in tab.text
-    tab.page.evaluate("Date.now = window.now")
+    with standing_clock(tab.page, ahead_ms=10_000):
+        runs.select_option(index=2)
+        assert tab.text == PROGRAM
+        runs.select_option(label="The first program")
+        assert "turn = 0.3" in tab.text
     tab.editor.click()
     tab.page.keyboard.press("ControlOrMeta+z")
     assert tab.text == PROGRAM
@@ -405,10 +416,9 @@ def test_tab_indents_and_after_escape_leaves(tab: CodePage) -> None:
     assert tab.text == "    x"
     expect(tab.editor).to_have_accessible_description(re.compile("Escape, then Tab leaves"))
     # the editor's own limit is 2 s between the two, however busy the machine is
-    tab.page.evaluate("window.now = Date.now; const at = Date.now(); Date.now = () => at")
-    tab.page.keyboard.press("Escape")
-    tab.page.keyboard.press("Tab")
-    tab.page.evaluate("Date.now = window.now")
+    with standing_clock(tab.page):
+        tab.page.keyboard.press("Escape")
+        tab.page.keyboard.press("Tab")
     expect(tab.editor).not_to_be_focused()
     expect(tab.page.locator("summary").filter(has_text="Output")).to_be_focused()
     assert tab.text == "    x"

@@ -33,7 +33,7 @@ def test_watch_it_think_then_beat_it(server: Played, page: Page) -> None:
     texts = record_texts(page, ".ai4u-banner")
     press(page, "Watch it think")
     banner = page.locator(BANNER)
-    until_on(page, lambda: any(re.search("It .* because .* box .*", each) for each in texts()))
+    until_on(page, lambda: any(re.match(r"\s*It .* because .* box .*", each) for each in texts()))
     expect(button(page, "Stop watching")).to_be_visible()
     # the banner says how it ended, and what to do next
     expect(banner.locator("strong")).to_contain_text("The network did it!")

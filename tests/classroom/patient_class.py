@@ -48,7 +48,7 @@ def be_patient() -> None:
     patient = functools.partial(room_watch.RoomLimits, **dict.fromkeys(of_rooms, LIMIT_S))
     room_watch.RoomLimits = patient  # type: ignore[assignment, misc]  # it makes them, too
     # one practice at a time, as on two cores: tests wait for a place in its line
-    live_class.core_count = lambda: 2  # type: ignore[attr-defined]
+    live_class.core_count = lambda: 2  # type: ignore[attr-defined]  # it imports the function
     # with the lowest priority they would get no time beside the tests' other work
     replace("ai4u_edu.teach.background", "NICENESS", 0)
     isolated.serve_jobs = serve_jobs_with_usual_priority  # type: ignore[attr-defined]

@@ -24,7 +24,7 @@ from tests.classroom.served_class import ServedClass, served_class
 from tests.classroom.test_practice_queue import learning_of, page_of
 from tests.classroom.test_trainings import folder_of, process_of
 from tests.page.panel.rooms import PanelPage
-from tests.processes import command_line
+from tests.processes import children_that_run
 from tests.waiting import LIMIT_S, until, until_async
 
 SPEED = "0.move.move_amount"
@@ -82,18 +82,12 @@ def with_queue(folder: Path, task: Callable[[Asking], Awaitable[None]], **limits
         asyncio.run(run(store))
 
 
-def try_processes() -> list[psutil.Process]:
-    """Return the processes of this one that try values."""
-    children = psutil.Process().children()
-    return [each for each in children if "ai4u_edu.teach.try_process" in command_line(each)]
-
-
 @pytest.mark.slow
 def test_the_tries_with_the_fewest_episodes_come_first(tmp_path: Path) -> None:
     async def task(asking: Asking) -> None:
         await asking.try_values("a", "try-first", [5.0, 4.0])
         await until_async(lambda: not asking.state("a", "try-first").place)
-        (first,) = try_processes()
+        (first,) = children_that_run("ai4u_edu.teach.try_process")
         first.suspend()  # until the others wait
         await asking.try_values("b", "try-long", [5.0], 50)
         await asking.try_values("c", "try-short", [5.0], 2)

@@ -21,7 +21,7 @@ from tests.classroom.link_client import RawLink
 from tests.classroom.served_class import ServedClass, Student, served_class
 from tests.classroom.test_export import zip_of
 from tests.page.panel.rooms import PanelPage
-from tests.processes import command_line
+from tests.processes import children_that_run
 from tests.teach.driving import SEEDS, drive
 from tests.waiting import LIMIT_S, until, until_async
 
@@ -63,10 +63,8 @@ def process_of(served: ServedClass, module: str) -> psutil.Process:
     processes: list[psutil.Process] = []
 
     def is_there() -> bool:
-        children = psutil.Process(served.process.pid).children()
-        processes[:] = [
-            child for child in children if f"ai4u_edu.teach.{module}" in command_line(child)
-        ]
+        parent = psutil.Process(served.process.pid)
+        processes[:] = children_that_run(f"ai4u_edu.teach.{module}", parent)
         return bool(processes)
 
     until(is_there)

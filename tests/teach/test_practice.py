@@ -18,7 +18,7 @@ from ai4u_edu.teach import learning, networks
 from ai4u_edu.teach.practice import Practice, PracticeFolder, PracticeProcess, PracticeRequest
 from tests.page.panel.rooms import PanelPage, PanelRoom
 from tests.playing import Played, played
-from tests.processes import command_line
+from tests.processes import children_that_run
 from tests.teach.driving import teaching_room
 from tests.waiting import LIMIT_S, until
 
@@ -66,8 +66,7 @@ def orange_of(folder: Path, number: int) -> str:
 
 def practising(server: psutil.Process) -> list[psutil.Process]:
     """Return the processes of a server that practise."""
-    name = "ai4u_edu.teach.practice_process"
-    return [child for child in server.children() if name in command_line(child)]
+    return children_that_run("ai4u_edu.teach.practice_process", server)
 
 
 def test_a_network_practises_and_drives_then(room: PanelRoom, page: PanelPage) -> None:

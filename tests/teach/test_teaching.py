@@ -22,7 +22,7 @@ from ai4u_edu.teach.drives import DriveFolder
 from ai4u_edu.teach.messages import TeachPart
 from ai4u_edu.teach.scene_work import reason_against_teaching
 from tests.page.panel.rooms import Message, PanelPage, PanelRoom
-from tests.processes import command_line
+from tests.processes import children_that_run
 from tests.teach.driving import SEEDS, drive, steer, teaching_room
 from tests.waiting import until
 
@@ -154,11 +154,7 @@ def child() -> psutil.Process:
     found: list[psutil.Process] = []
 
     def is_there() -> bool:
-        found[:] = [
-            each
-            for each in psutil.Process().children()
-            if "ai4u_edu.teach.clone_process" in command_line(each)
-        ]
+        found[:] = children_that_run("ai4u_edu.teach.clone_process")
         return bool(found)
 
     until(is_there)

@@ -15,7 +15,7 @@ from ai4u_edu.teach import background, tries
 from ai4u_edu.teach.learning import STOPPED
 from ai4u_edu.teach.tasks import MODULES
 from tests.page.panel.rooms import PanelPage, PanelRoom
-from tests.processes import command_line
+from tests.processes import children_that_run
 from tests.waiting import until
 
 pytestmark = pytest.mark.slow
@@ -111,11 +111,7 @@ def test_what_was_driven_is_kept_when_it_is_stopped_or_dies(
     assert [row["value"] for row in part["tries"]["rows"]] == [5]
 
     page.done("teach_try", **many)
-    (process,) = (
-        each
-        for each in psutil.Process().children()
-        if "ai4u_edu.teach.try_process" in command_line(each)
-    )
+    (process,) = children_that_run("ai4u_edu.teach.try_process")
     process.kill()
     part = page.part(
         "tries", lambda part: part["tries"]["is_over"] and part["tries"]["problem"] == tries.DIED
