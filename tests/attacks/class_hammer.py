@@ -333,14 +333,22 @@ class Memory:
             later = samples[len(samples) // 5 :]
             if len(later) < 3:
                 continue
-            slope = statistics.linear_regression(*zip(*later, strict=True)).slope * 3600 / 1e6
+            slope, latest = (_slope(each) for each in (later, samples[len(samples) // 2 :]))
             name = "class" if pid == self._class.pid else "room"
             first, last = later[0][1] / 1e6, later[-1][1] / 1e6
             sizes = " ".join(f"{size / 1e6:.0f}" for _, size in samples[:: len(samples) // 20 + 1])
-            lines.append(f"{name} {pid}: {first:.1f} -> {last:.1f} MB, {slope:+.1f} MB/h ({sizes})")
+            lines.append(
+                f"{name} {pid}: {first:.1f} -> {last:.1f} MB, {slope:+.1f} MB/h, "
+                f"{latest:+.1f} in the second half ({sizes})"
+            )
             if seconds >= SLOPE_AFTER_S and slope > GROWTH_MB_PER_H:
                 tally.wrong.append(f"grows: {lines[-1]}")
         return lines
+
+
+def _slope(samples: list[tuple[float, int]]) -> float:
+    """Return the growth (MB/h) of samples of time (s) and bytes."""
+    return statistics.linear_regression(*zip(*samples, strict=True)).slope * 3600 / 1e6
 
 
 def _judge(attack: Attack, seats: list[tuple[int, str]]) -> None:
