@@ -41,8 +41,7 @@ def hello(number: int) -> bytes:
 def opened(url: str, subprotocol: str, first: bytes) -> socket.socket:
     """Open a connection that completes the handshake, sends one message, and never reads."""
     lines = (*UPGRADE, "Host: localhost", f"Sec-WebSocket-Protocol: {subprotocol}")
-    connection = raw_request(url, *lines)
-    connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    connection = raw_request(url, *lines, receive_buffer=4096)
     assert connection.recv(12, socket.MSG_WAITALL) == b"HTTP/1.1 101"
     connection.sendall(masked(first))
     return connection

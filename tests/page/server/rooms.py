@@ -272,10 +272,26 @@ def free_port() -> int:
         return port
 
 
-def raw_request(url: str, *lines: str) -> socket.socket:
+def connected(url: str, receive_buffer: int | None = None) -> socket.socket:
+    """Return a connection with a server.
+
+    Args:
+        receive_buffer: size (bytes) of the buffer of what has not been read here. One that is made
+            smaller later lets Linux drop what comes, what it says about the other direction too.
+    """
+    parts = urlsplit(url)
+    connection = socket.socket()
+    connection.settimeout(LIMIT_S)
+    if receive_buffer is not None:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
+    connection.connect((parts.hostname, parts.port or 80))
+    return connection
+
+
+def raw_request(url: str, *lines: str, receive_buffer: int | None = None) -> socket.socket:
     """Return a connection after a request with exactly these headers."""
     parts = urlsplit(url)
-    connection = socket.create_connection((parts.hostname, parts.port or 80), timeout=LIMIT_S)
+    connection = connected(url, receive_buffer)
     connection.sendall("\r\n".join([f"GET {parts.path} HTTP/1.1", *lines, "", ""]).encode())
     return connection
 

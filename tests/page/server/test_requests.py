@@ -5,7 +5,6 @@ import socket
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
-from urllib.parse import urlsplit
 
 import psutil
 import pytest
@@ -14,8 +13,8 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from ai4u_edu.page.server import ServerThread, Timeouts
 from tests.page.server import http_client
-from tests.page.server.rooms import PATIENT, UPGRADE, Room, served
-from tests.waiting import LIMIT_S, Deadline, until
+from tests.page.server.rooms import PATIENT, UPGRADE, Room, connected, served
+from tests.waiting import Deadline, until
 
 QUICK = replace(PATIENT, request=0.2)
 """Time limits of which that of requests is over soon."""
@@ -43,11 +42,6 @@ def said_to(said: bytes, timeouts: Timeouts, app: ASGIApp) -> Iterator[socket.so
 
 async def fine(scope: Scope, receive: Receive, send: Send) -> None:
     await PlainTextResponse("fine")(scope, receive, send)
-
-
-def connected(url: str) -> socket.socket:
-    parts = urlsplit(url)
-    return socket.create_connection((parts.hostname or "", parts.port or 80), timeout=LIMIT_S)
 
 
 def heard(connection: socket.socket) -> bytes:
@@ -136,9 +130,8 @@ def test_a_reader_that_takes_nothing_is_given_up() -> None:
     ask = b"GET /api/openapi.json HTTP/1.1\r\nHost: localhost\r\n\r\n"
     with (
         served(timeouts=replace(PATIENT, stall=0.1)) as room,
-        connected(room.url) as connection,
+        connected(room.url, receive_buffer=4096) as connection,
     ):
-        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         connection.sendall(ask)
         assert connection.recv(1) == b"H"  # else the server may not have its end yet
         # real time: pause between two looks at what has to come some time
