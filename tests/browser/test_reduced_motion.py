@@ -13,6 +13,7 @@ MOVING = """() => [...document.querySelectorAll("[class^=ai4u], [class^=ai4u] *"
 }).map(each => each.outerHTML.slice(0, 80))"""
 """Elements that have an animation or a transition."""
 
+# real time: that of the page's own limit, which is taken away
 NO_LIMIT = """const { setTimeout } = window;
 window.setTimeout = (act, ms, ...rest) => ms === 5000 ? 0 : setTimeout(act, ms, ...rest);"""
 """The page ends its opening by itself after 5 s, which may pass here on a slow machine."""
