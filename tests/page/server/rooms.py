@@ -276,8 +276,9 @@ def connected(url: str, receive_buffer: int | None = None) -> socket.socket:
     """Return a connection with a server.
 
     Args:
-        receive_buffer: size (bytes) of the buffer of what has not been read here. One that is made
-            smaller later lets Linux drop what comes, what it says about the other direction too.
+        receive_buffer: size (bytes) of the buffer of what has not been read here. Made smaller
+            after connecting, it may stop the other direction, too: Linux drops acknowledgments
+            with what does not fit.
     """
     parts = urlsplit(url)
     connection = socket.socket()
