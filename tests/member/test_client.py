@@ -130,7 +130,7 @@ def test_stop_waits_for_what_is_pending(there: TinyClass) -> None:
         client.send_result(result(1))
         client.send(state(1))
     assert there.results == [result(1).key]
-    assert there.of(State) == [state(1)]
+    until(lambda: there.of(State) == [state(1)])  # the class reads it after the client has gone
 
 
 def test_stop_does_not_wait_for_a_class_that_is_not_there() -> None:
