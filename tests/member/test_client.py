@@ -127,6 +127,7 @@ def test_a_class_that_begins_later_gets_what_was_sent_before(tmp_path: Path) -> 
 
 def test_stop_waits_for_what_is_pending(there: TinyClass) -> None:
     with linked(there.url) as client:
+        until(lambda: client.is_connected)
         client.send_result(result(1))
         client.send(state(1))
     assert there.results == [result(1).key]
