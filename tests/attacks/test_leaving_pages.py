@@ -1,6 +1,5 @@
 """Pages that leave at an odd moment, or send what is no text: no traceback, and others go on."""
 
-import socket
 import threading
 from collections.abc import Iterator
 from urllib.parse import urlsplit
@@ -17,7 +16,7 @@ from ai4u_edu.page.server.limits.frames import EXTENSION
 from ai4u_edu.wire.native import SUBPROTOCOL
 from tests.attacks.raw_http import SOCKET_HEADERS
 from tests.page.server import http_client
-from tests.page.server.rooms import PATIENT, Room, open_socket, served
+from tests.page.server.rooms import PATIENT, Room, open_socket, raw_request, served
 from tests.waiting import LIMIT_S
 
 
@@ -43,11 +42,8 @@ def test_a_page_that_leaves_during_its_handshake_is_no_error(
             over.set()
 
     with ServerThread(app, timeouts=PATIENT) as server:
-        parts = urlsplit(server.url)
         head = [f"{name}: {value}" for name, value in SOCKET_HEADERS.items()]
-        request = "\r\n".join(["GET / HTTP/1.1", f"Host: {parts.netloc}", *head, "", ""])
-        with socket.create_connection((parts.hostname, parts.port or 80), LIMIT_S) as connection:
-            connection.sendall(request.encode())
+        with raw_request(server.url, f"Host: {urlsplit(server.url).netloc}", *head) as connection:
             assert over.wait(LIMIT_S)
             while connection.recv(4096):
                 pass

@@ -4,7 +4,6 @@ import asyncio
 import contextlib
 import os
 import signal
-import socket
 import sys
 import time
 from collections.abc import Iterator
@@ -17,8 +16,8 @@ import pytest
 from ai4u_edu.page.server.limits.attempts import MAX_WRONG
 from tests.classroom.served_class import CODE, ServedClass, Student, served_class
 from tests.page.server import http_client
-from tests.page.server.rooms import Page
-from tests.waiting import LIMIT_S, until, until_async
+from tests.page.server.rooms import Page, connected
+from tests.waiting import until, until_async
 
 pytestmark = pytest.mark.slow
 MARKUP = "<img src=x onerror=alert(1)>"
@@ -125,8 +124,7 @@ def test_no_path_leads_out_of_ones_own_room(
     target = "/" + path.format(room=ada.room.split("/")[2], other=ben.room.split("/")[2])
     request = f"GET {target} HTTP/1.1\r\nHost: {httpx.URL(served.url).netloc.decode()}\r\n"
     request += f"Cookie: {ada.cookies['Cookie']}\r\nConnection: close\r\n\r\n"
-    url = httpx.URL(served.url)
-    with socket.create_connection((url.host, url.port or 80), timeout=LIMIT_S) as raw:
+    with connected(served.url) as raw:
         raw.sendall(request.encode())
         answer = b"".join(iter(lambda: raw.recv(65536), b""))
     status = int(answer.split()[1])

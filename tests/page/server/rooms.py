@@ -6,7 +6,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any, Self
 from unittest.mock import patch
@@ -281,11 +281,13 @@ def connected(url: str, receive_buffer: int | None = None) -> socket.socket:
             with what does not fit.
     """
     parts = urlsplit(url)
-    connection = socket.socket()
-    connection.settimeout(LIMIT_S)
-    if receive_buffer is not None:
-        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
-    connection.connect((parts.hostname, parts.port or 80))
+    with ExitStack() as stack:
+        connection = stack.enter_context(socket.socket())
+        connection.settimeout(LIMIT_S)
+        if receive_buffer is not None:
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
+        connection.connect((parts.hostname, parts.port or 80))
+        stack.pop_all()
     return connection
 
 

@@ -8,7 +8,6 @@ import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
-from urllib.parse import urlsplit
 
 import pytest
 from starlette.responses import PlainTextResponse
@@ -24,7 +23,16 @@ from ai4u_edu.page.server.limits.connections import (
     max_connections,
 )
 from tests.page.server import http_client
-from tests.page.server.rooms import PATIENT, UPGRADE, Page, Room, log_intervals, raw_request, served
+from tests.page.server.rooms import (
+    PATIENT,
+    UPGRADE,
+    Page,
+    Room,
+    connected,
+    log_intervals,
+    raw_request,
+    served,
+)
 from tests.waiting import LIMIT_S, until
 
 
@@ -141,13 +149,8 @@ def test_the_limit_leaves_descriptors_for_everything_else(monkeypatch: pytest.Mo
 
 @contextmanager
 def crowd(url: str, count: int) -> Iterator[list[socket.socket]]:
-    parts = urlsplit(url)
     with ExitStack() as stack:
-        place = (str(parts.hostname), parts.port or 80)
-        yield [
-            stack.enter_context(socket.create_connection(place, timeout=LIMIT_S))
-            for _ in range(count)
-        ]
+        yield [stack.enter_context(connected(url)) for _ in range(count)]
 
 
 @pytest.fixture
