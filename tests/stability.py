@@ -26,6 +26,8 @@ LOG = ROOT / "build" / "stability.log"
 MAX_RUN_S = 5400.0
 """Time (s) after which a run is ended, and counts as one that hangs."""
 TRACEBACK_LINES = 40
+LATE = Path("tests") / "late"
+"""Folder whose ``sitecustomize.py`` lets threads wake late."""
 LOOP = "import os; parent = os.getppid()\nwhile os.getppid() == parent: pass"
 """Program that keeps a core busy until its parent ends."""
 
@@ -63,6 +65,7 @@ def main() -> int:
         "--seed", type=int, help="draw the order of files and tests, a new one a run"
     )
     parser.add_argument("--fast", action="store_true", help="the tier --fast")
+    parser.add_argument("--late", action="store_true", help="threads wake late")
     parser.add_argument("--log", type=Path, default=LOG, help="file to append to")
     parser.add_argument("--foreground", action="store_true", help="stay until the last run ends")
     options = parser.parse_args()
@@ -94,10 +97,11 @@ def repeat(options: argparse.Namespace) -> int:
                 command += ["--seed", str(options.seed + number)]
                 order = f"seed {options.seed + number}"
             tier = "fast" if options.fast else "default"
+            late = ", late threads" if options.late else ""
             now = datetime.now(UTC).strftime("%Y-%m-%d %H:%M")
-            run = run_once(command, folder, options.log.parent)
+            run = run_once(command, folder, options.log.parent, late=options.late)
             first, *others = run.lines()
-            head = f"{now} {commit} {tier}, load {options.load}, {order}, run {number + 1}"
+            head = f"{now} {commit} {tier}, load {options.load}{late}, {order}, run {number + 1}"
             around = f"load average {os.getloadavg()[1]:.0f}"  # of five minutes, of all programs
             with options.log.open("a", encoding="utf-8") as log:
                 log.write("\n".join([f"{head}: {first}, {around}", *others, ""]))
@@ -105,7 +109,7 @@ def repeat(options: argparse.Namespace) -> int:
     return 0 if is_green else 1
 
 
-def run_once(command: list[str], folder: Path, kept_in: Path) -> Run:
+def run_once(command: list[str], folder: Path, kept_in: Path, *, late: bool) -> Run:
     """Run the tests in a clone; keep the results of a red run in a folder beside the log."""
     shutil.rmtree(folder / RESULTS, ignore_errors=True)
     output, began = folder / "output.txt", time.monotonic()
@@ -113,6 +117,7 @@ def run_once(command: list[str], folder: Path, kept_in: Path) -> Run:
         process = subprocess.Popen(
             command,
             cwd=folder,
+            env={**os.environ, "PYTHONPATH": str(folder / LATE)} if late else None,
             stdin=subprocess.DEVNULL,
             stdout=file,
             stderr=subprocess.STDOUT,

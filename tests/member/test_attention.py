@@ -2,7 +2,7 @@
 
 from ai4u_edu import Scene
 from ai4u_edu.member.member import MAX_UNLINKED_HOLD_S, REST_AFTER_S
-from ai4u_edu.wire.class_link import Attention, LinkProblem, LinkWelcome, People, Person
+from ai4u_edu.wire.class_link import Attention, LinkProblem, LinkWelcome, People, Person, State
 from tests.member.fake_link import Joined, joined
 from tests.waiting import LIMIT_S, until
 
@@ -28,7 +28,6 @@ def stands_still(room: Joined) -> bool:
 def test_pause_and_blank_hold_until_the_teacher_ends_them() -> None:
     with joined() as room:
         for kind in ("pause", "blank"):
-            room.link.sent.clear()
             room.tell(Attention(kind, "Look here", 0.0))
             until(lambda: is_held(room))
             assert stands_still(room)
@@ -36,8 +35,10 @@ def test_pause_and_blank_hold_until_the_teacher_ends_them() -> None:
             event = room.member.view.event("student", 0)
             assert event is not None
             assert event["attention"] == {"kind": kind, "message": "Look here", "ends_in": 0.0}
+            room.link.sent.clear()
             room.tell(END)
             until(lambda: not is_held(room))
+            room.next(State, lambda state: state.status != "paused")  # the next pause is new to it
 
 
 def test_a_message_alone_stops_nothing() -> None:
