@@ -10,9 +10,12 @@ import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 
+import psutil
+
 from ai4u_edu.lessons.handout import lab_config
 from tests.evidence import KeptFile
 from tests.page.server.rooms import free_port
+from tests.processes import command_line
 from tests.waiting import LIMIT_S, until
 
 
@@ -50,8 +53,22 @@ def lab(
             wait_for(url + "api", process, kept.path)
             yield url
         finally:
-            process.terminate()
-            process.wait(LIMIT_S)
+            end(process)
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """End a Jupyter server, its kernels and what it has started.
+
+    If its event loop stops while a thread of AnyIO carries out a request, it waits for that thread
+    for ever (issue 10442 of JupyterLab). So it is killed as soon as its children have ended.
+    """
+    if process.poll() is not None:
+        return
+    children = psutil.Process(process.pid).children(recursive=True)
+    process.terminate()
+    until(lambda: process.poll() is not None or not any(map(command_line, children)))
+    process.kill()
+    process.wait()
 
 
 def wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:

@@ -132,16 +132,15 @@ def speed_of(room: PanelRoom) -> float:
 
 def test_a_pages_program_drives_with_each_value(room: PanelRoom, page: PanelPage) -> None:
     before = speed_of(room)
-    assert page.done("teach_try_program", parameter=SPEED, values="2, 5", starts=3)["values"] == [
-        2,
-        5,
-    ]
+    assert before not in (2, 4)
+    answer = page.done("teach_try_program", parameter=SPEED, values="2, 4", starts=3)
+    assert answer["values"] == [2, 4]
     hold(page)
     assert (
         "tried already" in page.failed("teach_try", parameter=SPEED, values="1", starts=1)["text"]
     )
     assert "a value that is to be tried" in page.failed("teach_set_value", value=3)["text"]
-    for value in (2, 5):
+    for value in (2, 4):
         page.done("teach_set_value", value=value)
         for seed in (0, None):  # also episodes that begin by themselves
             room.runner.reset(seed).result()
