@@ -16,9 +16,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-SHARE = float(os.environ.get("AI4U_LATE_SHARE", "0.3"))
+SHARE = 0.3
 """Part of these places where a thread pauses."""
-LONGEST_S = float(os.environ.get("AI4U_LATE_S", "0.2"))
+LONGEST_S = 0.2
 """Time (s) of the longest pause."""
 STEP_SHARE = SHARE / 30
 """Part of the steps of an event loop: all of its tasks wait for each."""

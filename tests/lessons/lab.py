@@ -66,9 +66,11 @@ def end(process: subprocess.Popen[bytes]) -> None:
         return
     children = psutil.Process(process.pid).children(recursive=True)
     process.terminate()
-    until(lambda: process.poll() is not None or not any(map(command_line, children)))
-    process.kill()
-    process.wait()
+    try:
+        until(lambda: process.poll() is not None or not any(map(command_line, children)))
+    finally:
+        process.kill()
+        process.wait()
 
 
 def wait_for(url: str, process: subprocess.Popen[bytes], log: Path) -> None:

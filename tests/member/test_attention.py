@@ -28,6 +28,7 @@ def stands_still(room: Joined) -> bool:
 def test_pause_and_blank_hold_until_the_teacher_ends_them() -> None:
     with joined() as room:
         for kind in ("pause", "blank"):
+            room.link.sent.clear()
             room.tell(Attention(kind, "Look here", 0.0))
             until(lambda: is_held(room))
             assert stands_still(room)
