@@ -21,7 +21,8 @@ class Block(Parameterized):
     """The base of sensors, actuators, reward functions, brains and controllers."""
 
     types: ClassVar[dict[str, type["Block"]]] = {}
-    """All classes of blocks by name, as in scene files."""
+    """All classes of blocks by name, as in scene files. Another thread may add one at any time:
+    iterate over a copy."""
 
     abstract: ClassVar[bool] = False
     """True for a class that is only a base of others; it applies to the class that sets it."""

@@ -211,7 +211,7 @@ def _run(path: Path) -> dict[str, Any]:
         problem = _("{place}: {problem}", place=place, problem=fault)
     taken = [
         name
-        for name, cls in Block.types.items()
+        for name, cls in list(Block.types.items())
         if before.get(name, cls) is not cls and is_built_in(before[name])
     ]
     if taken:
