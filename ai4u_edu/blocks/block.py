@@ -2,6 +2,7 @@
 
 import re
 import sys
+import threading
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy, deepcopy
@@ -15,21 +16,23 @@ from ai4u_edu.blocks.parameterized import Parameterized
 from ai4u_edu.world import WorldView
 
 _UNCHANGING = {bool, int, float, str, tuple, type(None)}
+_registering = threading.Lock()
 
 
 class Block(Parameterized):
     """The base of sensors, actuators, reward functions, brains and controllers."""
 
     types: ClassVar[dict[str, type["Block"]]] = {}
-    """All classes of blocks by name, as in scene files. Another thread may add one at any time:
-    iterate over a copy."""
+    """All classes of blocks by name, as in scene files; replaced by each new one, never changed,
+    since another thread may read it."""
 
     abstract: ClassVar[bool] = False
     """True for a class that is only a base of others; it applies to the class that sets it."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        Block.types[cls.__name__] = cls
+        with _registering:
+            Block.types = {**Block.types, cls.__name__: cls}
 
     carried: ClassVar[tuple[str, ...]] = ()
     """Attributes that an episode changes, besides those of the base classes; a copy of the world

@@ -35,7 +35,7 @@ def load_blocks(path: Path) -> list[type[Block]]:
         raise SetupError(
             _("{path}: expected a Python file (.py) with blocks of your own", path=str(path))
         )
-    before = dict(Block.types)
+    before = Block.types
     module = sys.modules[name] = importlib.util.module_from_spec(spec)
     beside = str(path.parent.resolve())
     if beside not in sys.path:
@@ -45,7 +45,7 @@ def load_blocks(path: Path) -> list[type[Block]]:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:  # a user's code may raise anything
         problem = join([_place(path, error), type(error).__name__, _text(error)], ": ")
-    found = {name: cls for name, cls in list(Block.types.items()) if before.get(name) is not cls}
+    found = {name: cls for name, cls in Block.types.items() if before.get(name) is not cls}
     taken = [name for name in found if name in before and is_built_in(before[name])]
     if taken:
         problem = _(
@@ -60,15 +60,14 @@ def load_blocks(path: Path) -> list[type[Block]]:
             path=str(path),
         )
     if problem:
-        Block.types.clear()
-        Block.types.update(before)
+        Block.types = before
         raise SetupError(problem)
     return list(found.values())
 
 
 def own_files() -> list[Path]:
     """Return the files whose blocks are loaded, so that a child process can load them too."""
-    modules = {cls.__module__ for cls in list(Block.types.values())}
+    modules = {cls.__module__ for cls in Block.types.values()}
     files = [
         getattr(sys.modules.get(name), "__file__", None)
         for name in sorted(modules)

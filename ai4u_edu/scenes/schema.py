@@ -15,9 +15,7 @@ def scene_schema() -> dict[str, Any]:
     agent = BasicAgent.json_schema()
     definitions: dict[str, Any] = {**schema.pop("$defs", {}), **agent.pop("$defs", {})}
     blocks = {
-        name: cls
-        for name, cls in list(Block.types.items())
-        if is_built_in(cls) and is_serializable(cls)
+        name: cls for name, cls in Block.types.items() if is_built_in(cls) and is_serializable(cls)
     }
     for name, cls in blocks.items():
         definitions[name] = _block_schema(cls)

@@ -65,7 +65,7 @@ def from_plain(kind: type[Block], data: Any, path: DataPath = ()) -> Block:
         )
     known = {
         name: cls
-        for name, cls in list(Block.types.items())
+        for name, cls in Block.types.items()
         if issubclass(cls, kind) and is_serializable(cls)
     }
     name = data.get("type")

@@ -64,4 +64,5 @@ make_late(threading.Condition, "wait")
 make_late(threading.Event, "set")
 make_late(threading.Thread, "run", before=SHARE)
 make_late(asyncio.Handle, "_run", after=STEP_SHARE)
+# all that makes sockets later gets this one
 socket.socket = LateSocket  # type: ignore[misc]

@@ -193,7 +193,7 @@ def _run(path: Path) -> dict[str, Any]:
     Raises:
         SetupError: it can't be run, or gives a block the name of a built-in one.
     """
-    before = dict(Block.types)
+    before = Block.types
     problem: str = ""
     names: dict[str, Any] = {}
     try:
@@ -211,7 +211,7 @@ def _run(path: Path) -> dict[str, Any]:
         problem = _("{place}: {problem}", place=place, problem=fault)
     taken = [
         name
-        for name, cls in list(Block.types.items())
+        for name, cls in Block.types.items()
         if before.get(name, cls) is not cls and is_built_in(before[name])
     ]
     if taken:
@@ -221,8 +221,7 @@ def _run(path: Path) -> dict[str, Any]:
             name=taken[0],
         )
     if problem:
-        Block.types.clear()
-        Block.types.update(before)
+        Block.types = before
         raise SetupError(problem)
     return names
 
