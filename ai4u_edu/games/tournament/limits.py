@@ -67,8 +67,10 @@ class CpuMeter:
                 raise OverTimeError(over_game_time())
 
     def close(self) -> None:
-        """End the thread."""
+        """End the thread; it has ended when this returns."""
         self._ended.set()
+        if self._thread is not None:
+            self._thread.join()
 
     def _watch(self) -> None:
         while not self._ended.wait(CHECK_INTERVAL_S):

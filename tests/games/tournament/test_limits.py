@@ -25,11 +25,17 @@ class Clocks:
         self.asked = 0
         """Times that the meter's thread has asked."""
         self.answers = threading.Semaphore(0)
+        self._free = False
+
+    def answer_all(self) -> None:
+        """Let the meter's thread never wait again."""
+        self._free = True
+        self.answers.release()
 
     def process_time(self) -> float:
         if threading.current_thread().name == "cpu meter":
             self.asked += 1
-            assert self.answers.acquire(timeout=LIMIT_S)
+            assert self._free or self.answers.acquire(timeout=LIMIT_S)
         return self.now
 
     def thread_time(self) -> float:
@@ -49,15 +55,15 @@ def clocks(monkeypatch: pytest.MonkeyPatch) -> Clocks:
 def meter(clocks: Clocks) -> Iterator[CpuMeter]:
     made = CpuMeter(lambda: clocks.stopped.append(clocks.now))
     yield made
+    clocks.answer_all()
     made.close()
-    clocks.answers.release(1000)
 
 
 def test_a_decision_that_takes_too_long_is_stopped(clocks: Clocks, meter: CpuMeter) -> None:
     def decide() -> None:
         with meter.measuring():
             clocks.now += 1.5 * DECISION_CPU_S
-            clocks.answers.release(1000)
+            clocks.answer_all()
             until(lambda: clocks.stopped)
 
     with pytest.raises(OverTimeError, match=r"it took 1\.5 s of processor time for a decision"):
@@ -85,6 +91,17 @@ def test_time_between_two_decisions_counts_for_none(clocks: Clocks, meter: CpuMe
         clocks.answers.release()
         until(lambda: clocks.asked == 2)  # it has looked
     assert clocks.stopped == []
+
+
+def test_a_closed_meter_has_no_thread(clocks: Clocks, meter: CpuMeter) -> None:
+    """A thread that outlives its game would read the clocks of the next one."""
+    with meter.measuring():
+        until(lambda: clocks.asked == 1)
+    closing = threading.Thread(target=meter.close)
+    closing.start()
+    clocks.answer_all()
+    closing.join()
+    assert "cpu meter" not in [each.name for each in threading.enumerate()]
 
 
 @pytest.mark.needs("train", "tournament")
