@@ -2,7 +2,7 @@
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from ai4u_edu.base.log_limit import ErrorLog
 from ai4u_edu.page.editing import SceneEditor
@@ -24,6 +24,7 @@ from ai4u_edu.page.viewer.scene.labels import Labels, SpeechBubbles
 from ai4u_edu.page.viewer.scene.light import set_up_lights
 from ai4u_edu.page.viewer.scene.sense_overlay import PictureOption, SenseOverlay
 from ai4u_edu.page.viewer.scene.trails import Trails
+from ai4u_edu.page.viewer.scene.view import View
 from ai4u_edu.page.viewer.viewer_client import ViewerClients
 from ai4u_edu.recording import Ghosts
 from ai4u_edu.runtime.frame_budget import MAX_FRAMES_PER_S, TEXTS_PER_S
@@ -69,6 +70,8 @@ class Viewer:
             server, first=runner.sim.agents[0].id, is_smooth=runner.frame_budget.is_smooth
         )
         self._static_scene: StaticScene | None = None
+        self._camera_time = 0.0
+        """Processor time (s) for which the cameras were moved for the latest frame."""
         self._error_log = ErrorLog()
         self._stopping = threading.Event()
         self.thread = threading.Thread(target=self._run, name="viewer", daemon=True)
@@ -131,7 +134,7 @@ class Viewer:
                 period = self.runner.frame_budget.frame_period(
                     pages=len(self.viewer_clients),
                     tick_lateness=self.runner.lateness,
-                    draw_time=time.thread_time() - processor_began,
+                    draw_time=time.thread_time() - processor_began + self._camera_time,
                 )
             due = max(due + period, began)  # a late frame does not move the later ones
             if time.monotonic() >= due:
@@ -157,9 +160,26 @@ class Viewer:
                     part.build(snapshot.static_scene)
             for part in self.parts:
                 part.draw(snapshot)
-        for viewer_client in self.viewer_clients.values():
+        shown = [(each.view, each.agent) for each in self.viewer_clients.values()]
+        if shown:
+            loop = self.server.get_event_loop()
+            loop.call_soon_threadsafe(self._move_cameras, snapshot, shown)
+
+    def _move_cameras(self, snapshot: Snapshot, shown: Iterable[tuple[View, str]]) -> None:
+        """Move the cameras of pages, in the event loop, which takes their reports.
+
+        A report that came between two assignments would have viser leave out the second one if it
+        equals the report, and the page would be left with the first one.
+
+        Args:
+            snapshot: what is shown.
+            shown: camera of each page, and id of the agent that the page shows.
+        """
+        began = time.thread_time()
+        for view, agent in shown:
             with self._error_log.caught():
-                viewer_client.view.update(snapshot, viewer_client.agent)
+                view.update(snapshot, agent)
+        self._camera_time = time.thread_time() - began
 
     def _aim(self, static_scene: StaticScene) -> None:
         """Aim the initial camera of new pages, until the shape of their window is known."""

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import msgspec
 import viser
+import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
@@ -29,6 +30,8 @@ class Page:
         self._connection = connection
         self.received = 0
         """Bytes."""
+        self.look_at: list[float] = []
+        """Where its camera looks, as it was told last; empty before that."""
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -67,9 +70,15 @@ class Page:
         )
 
     def _read(self) -> None:
+        unpacker = zstandard.ZstdDecompressor()
         with contextlib.suppress(ConnectionClosed):
             for message in self._connection:
                 self.received += len(message)
+                assert isinstance(message, bytes)
+                packed = message[16 : 16 + int.from_bytes(message[8:16], "little")]
+                for each in msgspec.msgpack.decode(unpacker.decompress(packed))["messages"]:
+                    if each["type"] == "SetCameraLookAtMessage" and not each["initial"]:
+                        self.look_at = each["look_at"]
 
 
 @contextlib.contextmanager

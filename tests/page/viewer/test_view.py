@@ -1,4 +1,5 @@
 import asyncio
+import threading
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -20,7 +21,7 @@ from ai4u_edu.page.viewer.scene.view import (
 )
 from ai4u_edu.runtime.runner import Runner
 from ai4u_edu.snapshot import Snapshot, capture_snapshot
-from tests.page.viewer.pages import Page, page
+from tests.page.viewer.pages import Page, page, shown
 from tests.waiting import LIMIT_S, until
 
 PLACE = (1.0, -2.0, 80.0)
@@ -118,6 +119,31 @@ def test_stale_camera_reports_are_ignored(watched: Watched, runner: Runner) -> N
     watched.report((3.0, 3.0, 3.0), size=(500, 800))  # from before our message came
     watched.view.update(runner.latest, "0")
     assert watched.camera.position == pytest.approx(place(whole(runner.latest, 500 / 800)))
+
+
+def test_no_report_comes_in_the_middle_of_a_move(
+    viewer: Viewer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A page reports that its camera is where we are about to put it."""
+    frame = whole(viewer.runner.latest)
+    wanted = pytest.approx([frame.x, frame.y, 0.0])
+    loop_threads: list[int] = []
+    position_of_camera = vars(CameraHandle)["position"]
+
+    def move(camera: CameraHandle, position: tuple[float, float, float]) -> None:
+        position_of_camera.fset(camera, position)
+        here.report_camera(position)
+        if threading.get_ident() not in loop_threads:  # the loop reads it now
+            until(lambda: camera.look_at == wanted)
+
+    with page(viewer) as here:
+        viewer.server.get_event_loop().call_soon_threadsafe(
+            lambda: loop_threads.append(threading.get_ident())
+        )
+        until(lambda: loop_threads)
+        monkeypatch.setattr(CameraHandle, "position", position_of_camera.setter(move))
+        shown(viewer)
+        until(lambda: here.look_at == wanted)
 
 
 @pytest.mark.parametrize("has_arrived", [False, True])

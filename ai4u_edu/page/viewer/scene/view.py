@@ -176,8 +176,9 @@ OPENING_TILT_RAD = math.radians(42)
 class View:
     """The camera of one page. Once a user has moved it, it is no longer moved for another window.
 
-    The viewer's thread alone calls :meth:`update` and moves the camera. The server's event loop
-    says what is wanted: :meth:`choose`, :meth:`open` and :meth:`end_opening` only set a value.
+    viser's event loop alone calls :meth:`update` and moves the camera: viser leaves out what equals
+    the page's latest report, so none may come in the middle. Other threads say what is wanted:
+    :meth:`choose`, :meth:`open` and :meth:`end_opening` only set a value.
 
     Args:
         client: the page.
