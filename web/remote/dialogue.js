@@ -88,6 +88,15 @@ export class Dialogue {
   #isAnswered = true;
   /** Number of the percept whose answer the world may still refuse. */
   #refusableSeq = -1;
+  /** Times that the answer to the latest percept was sent. */
+  #copies = 0;
+  /**
+   * The latest refusal of an answer that was thrown.
+   * @type {Problem | null}
+   */
+  #refusal = null;
+  /** Times that it may still come, for the other copies of that answer. */
+  #staleRefusals = 0;
   /**
    * The error that ended the session; every method throws it from then on.
    * @type {Error | null}
@@ -123,7 +132,7 @@ export class Dialogue {
         const frame = yield { receive: timeout };
         if (frame === null) {
           timeout = Math.min(2 * timeout, MAX_TIMEOUT_MS);
-          yield { send: this.#lastFrame };
+          yield this.#repeat();
         } else {
           this.#handle(frame);
         }
@@ -219,7 +228,7 @@ export class Dialogue {
     while (performance.now() < deadline) {
       try {
         yield* this.#attempt(Math.min(deadline, performance.now() + ATTEMPT_TIMEOUT_MS));
-        if (this.#isAnswered && !isFirst) yield { send: this.#lastFrame };
+        if (this.#isAnswered && !isFirst) yield this.#repeat();
         return null;
       } catch (failed) {
         this.#throwUnlessLost(failed);
@@ -279,12 +288,18 @@ export class Dialogue {
    * @returns {Flow<void>}
    */
   *#answer(frame, seq) {
-    [this.#lastFrame, this.#isAnswered, this.#refusableSeq] = [frame, true, seq];
+    [this.#lastFrame, this.#isAnswered, this.#refusableSeq, this.#copies] = [frame, true, seq, 1];
     try {
       yield { send: frame };
     } catch (lost) {
       yield* this.#reconnect(lost);
     }
+  }
+
+  /** Return the step that sends the last frame once more. */
+  #repeat() {
+    this.#copies += 1;
+    return { send: this.#lastFrame };
   }
 
   /**
@@ -321,15 +336,21 @@ export class Dialogue {
    * @param {Problem} problem
    * @param {number} latest number of the latest percept
    */
-  #handleProblem({ code, text, seq }, latest) {
+  #handleProblem(problem, latest) {
+    const { code, text, seq } = problem;
     const error = new RemoteError(text, code);
     if ([...PROBLEMS.values()].includes(code)) this.#end(error);
     if (seq === 0) {
       this.#isAnswered = this.percept === null; // the last frame was no answer
       throw error;
     }
+    const refused = this.#refusal;
+    if (this.#staleRefusals && code === refused.code && text === refused.text && seq === refused.seq) {
+      this.#staleRefusals -= 1; // the world refuses each copy of an answer; this one is not about the present answer
+      return;
+    }
     if (seq !== this.#refusableSeq) return;
-    this.#refusableSeq = -1; // the problem may be sent twice
+    [this.#refusal, this.#staleRefusals, this.#refusableSeq] = [problem, this.#copies - 1, -1];
     this.#isAnswered &&= seq !== latest;
     throw error;
   }

@@ -123,6 +123,26 @@ test("a refused action can be made again, a refusal that is repeated is not told
   assert.equal(play(dialogue.sense(), problem("bad_value", 4), percept(6)).result.seq, 6);
 });
 
+test("each copy of a refused answer is refused, but one error is thrown", () => {
+  const dialogue = begun();
+  play(dialogue.sense(), percept(5));
+  play(dialogue.act({}));
+  assert.throws(() => play(dialogue.sense(), null, null, problem("bad_value", 5)), { code: "bad_value" }); // sent three times
+  play(dialogue.act({}));
+  const { steps, result } = play(dialogue.sense(), problem("bad_value", 5), problem("bad_value", 5), percept(6));
+  assert.equal(result.seq, 6);
+  assert.deepEqual(sent({ steps }), []);
+});
+
+test("another refusal is thrown while copies of the first are under way", () => {
+  const dialogue = begun();
+  play(dialogue.sense(), percept(5));
+  play(dialogue.act({}));
+  assert.throws(() => play(dialogue.sense(), null, problem("bad_value", 5)), { code: "bad_value" });
+  play(dialogue.act({}));
+  assert.throws(() => play(dialogue.sense(), problem("bad_name", 5)), { code: "bad_name" });
+});
+
 test("an order for more time is sent only while an answer is due", () => {
   const dialogue = begun();
   assert.deepEqual(play(dialogue.wait()).steps, []);
