@@ -89,7 +89,8 @@ def run_script(
     python = ai4u_venv.find(trains=trains)
     if python is None:
         pytest.skip("AI4U's package is not here; python -m tests.remote.ai4u_venv gets it")
-    command = [str(python), "-u", "-c", PATIENT_SCRIPT, str(SCRIPTS / name), *map(str, args)]
+    # -E: tests.late would let them wait in that very place
+    command = [str(python), "-E", "-u", "-c", PATIENT_SCRIPT, str(SCRIPTS / name), *map(str, args)]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe) as script:
         assert script.stdout is not None
