@@ -124,9 +124,9 @@ class RoomQueue(ABC, Generic[RowT, StateT]):
         problem = FULL if self._store.quota.is_full else too_many
         row.state = replace(row.state, is_over=bool(problem), problem=problem)
         await self._save(row)
+        await asyncio.to_thread(self._look, row)  # before it is in the line: it tells who is next
         self._rows[row.state.key] = row
         await self._forget_ended(row.room)
-        await asyncio.to_thread(self._look, row)
         self._place()
         self.tick()
 

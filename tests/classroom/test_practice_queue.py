@@ -1,7 +1,9 @@
 """Practices in a class's process: who is next, what ends them, and what a student sees of it."""
 
 import asyncio
+import os
 import re
+import sys
 from collections.abc import Awaitable, Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
@@ -45,17 +47,27 @@ class Asking:
     def __init__(self, store: ClassStore) -> None:
         self.store = store
         self.told: list[str] = []
-        self.queue = PracticeQueue(store, 1, self.told.append, lambda: None)
+        self.rounds = 0
+        """Times that the queue has looked after all practices, and a few more."""
+        self.queue = PracticeQueue(store, 1, self.told.append, self._count)
+
+    def _count(self) -> None:
+        self.rounds += 1
 
     def folder(self, room: str) -> Path:
         return self.store.folder / "rooms" / room / PRACTICES
 
     async def practise(self, room: str, key: str, steps: int) -> Path:
         """Ask for a practice, and return its folder."""
+        folder = self.request(room, steps)
+        await self.queue.add(room, Practise(key, folder.name))
+        return folder
+
+    def request(self, room: str, steps: int) -> Path:
+        """Put the request for a practice into its folder, and return that."""
         scene = Scene.load("box_chase")
         request = PracticeRequest(scene.dumps(), "box_chase", "", "0", steps, 0, AWAY)
         folder, _ = PracticeFolder(self.folder(room)).add("box_chase", request)
-        await self.queue.add(room, Practise(key, folder.name))
         return folder
 
     def state(self, room: str, key: str) -> Practised:
@@ -117,6 +129,35 @@ def test_the_shortest_practice_learns_first_and_takes_the_place_of_a_longer_one(
         assert asking.queue.sentence("a") == ""
         assert not await asking.queue.stop("a", "long")
         assert not await asking.queue.stop("c", "long")
+
+    with_queue(tmp_path, task)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="a folder has no named pipes")
+def test_a_practice_waits_until_its_length_is_known(tmp_path: Path) -> None:
+    """The disk is slow: a practice is asked for, and its request is not read yet."""
+
+    async def task(asking: Asking) -> None:
+        learning = await asking.practise("a", "long", LATE)
+        await asking.is_learning("a", "long", learning)
+        folder = asking.request("b", LATE + 1)
+        text = (folder / "request.json").read_bytes()
+        (folder / "request.json").unlink()
+        os.mkfifo(folder / "request.json")
+        asked = asyncio.create_task(asking.queue.add("b", Practise("longer", folder.name)))
+        try:
+            rounds = asking.rounds
+            await until_async(lambda: asking.rounds > rounds + 3)
+            assert asking.state("a", "long").place == 0
+        finally:
+            pipe = await asyncio.to_thread((folder / "request.json").open, "wb")
+            (folder / "request.json").unlink()
+            (folder / "request.json").write_bytes(text)
+            with pipe:
+                pipe.write(text)
+        await asked
+        assert asking.state("b", "longer").place == 1
 
     with_queue(tmp_path, task)
 
