@@ -1,6 +1,7 @@
 """The keys on the screen, the driver status and the banners."""
 
 import re
+from dataclasses import replace
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
@@ -185,6 +186,22 @@ def test_an_error_is_told_as_text_and_can_be_reset(site: ServedViser) -> None:
     event.disconnect(broken)
     page.keyboard.press("KeyR")
     expect(alert).to_be_empty()
+
+
+def test_a_click_counts_though_the_words_beside_its_button_change(site: ServedViser) -> None:
+    page, runner = site.page(), site.room.runner
+
+    def show(moment: str) -> None:
+        runner.show_past(replace(runner.latest, past=moment)).result(LIMIT_S)
+        expect(page.locator(".ai4u-banner")).to_contain_text(f"Past: {moment}")
+
+    show("episode 1, step 1 of 9")
+    page.get_by_role("button", name="Back to live").hover()
+    page.mouse.down()
+    show("episode 1, step 2 of 9")
+    page.mouse.up()
+    expect(page.locator(".ai4u-banner")).to_have_count(0)
+    assert not runner.latest.past
 
 
 def test_an_agent_that_is_not_there_is_told(site: ServedViser) -> None:

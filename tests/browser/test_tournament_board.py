@@ -100,6 +100,21 @@ def test_the_teacher_begins_starts_and_ends_a_tournament_by_keyboard(
     expect(board.get_by_role("alert")).to_have_text(problem)
 
 
+def test_a_click_counts_though_a_game_ends_before_the_button_is_let_go(
+    page: Page, school: WallServer
+) -> None:
+    board = page.get_by_role("tabpanel", name="Tournament")
+    played = tournament(6)
+    school.send(tournament=played)
+    board.get_by_role("button", name="Game 3 to the projector").hover()
+    page.mouse.down()
+    results = {**played["results"], "games": played["results"]["games"] + 1}
+    school.send(tournament={**played, "results": results})
+    expect(board).to_contain_text(f"{results['games']} of {results['total']} games")
+    page.mouse.up()
+    until(lambda: school.commands[-1:] == [{"do": "show", "kind": "game", "game": 3}])
+
+
 def test_the_projector_shows_standings_and_the_last_match(
     chromium: Browser, school: WallServer
 ) -> None:

@@ -84,8 +84,11 @@ export class Banners {
   #alertRegion = element("div", { className: "ai4u-banners", role: "alert" });
   /** Region of thoughts: no live one, as a screen reader would read out each of them. */
   #quietRegion = element("section", { className: "ai4u-banners", ariaLabel: t("What it thinks") });
-  /** The banner that is shown, as JSON: an unchanged one is not read out again. */
-  #shown = "";
+  /**
+   * The banner that is shown: an unchanged one is not read out again.
+   * @type {Banner | null}
+   */
+  #shown = null;
   #connectionError = "";
   #requestError = "";
   #timer = 0;
@@ -150,13 +153,15 @@ export class Banners {
     this.#lastDraw = [state, page];
     if (state?.title) document.title = state.title;
     const banner = this.#banner(state, page);
-    const key = JSON.stringify(banner);
-    if (key === this.#shown) return;
-    this.#shown = key;
-    const { kind } = banner ?? {};
+    const before = this.#shown;
+    if (isSame(banner, before)) return;
+    this.#shown = banner;
+    const { kind, buttons } = banner ?? {};
     const used = kind === "error" ? this.#alertRegion : kind === "thought" ? this.#quietRegion : this.#statusRegion;
     for (const region of [this.#statusRegion, this.#alertRegion, this.#quietRegion]) if (region !== used) region.replaceChildren();
-    used.replaceChildren(...(banner ? [this.#element(banner)] : []));
+    // a click is lost if its button is replaced before it ends, and the past changes its words many times a second
+    if (banner && before && isSame([kind, buttons], [before.kind, before.buttons])) used.querySelector("p").replaceWith(wordsOf(banner));
+    else used.replaceChildren(...(banner ? [this.#element(banner)] : []));
   }
 
   /**
@@ -181,15 +186,10 @@ export class Banners {
   }
 
   /** @param {Banner} banner */
-  #element({ kind, text, hint, details, score, buttons = [] }) {
-    const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
-    const words = element("p", {}, element(tag, { textContent: text }));
-    if (hint) words.append(element("span", { className: "ai4u-hint", textContent: hint }));
-    if (details) words.append(element("small", { textContent: details }));
-    if (score) words.append(element("small", { className: "ai4u-details-only", textContent: score }));
-    const made = element("div", { className: "ai4u-banner" }, words);
-    made.dataset.kind = kind;
-    for (const name of buttons) {
+  #element(banner) {
+    const made = element("div", { className: "ai4u-banner" }, wordsOf(banner));
+    made.dataset.kind = banner.kind;
+    for (const name of banner.buttons ?? []) {
       const button = element("button", { type: "button", className: "ai4u-button", textContent: BUTTON_TEXTS[name] });
       button.addEventListener("click", () => this.#carryOut(name));
       made.append(button);
@@ -204,6 +204,24 @@ export class Banners {
     else if (name in this.#actions) this.#actions[name]();
     else this.#sendCommand(COMMANDS[name]);
   }
+}
+
+/**
+ * @param {unknown} one
+ * @param {unknown} other
+ */
+function isSame(one, other) {
+  return JSON.stringify(one) === JSON.stringify(other);
+}
+
+/** @param {Banner} banner */
+function wordsOf({ kind, text, hint, details, score }) {
+  const tag = NOT_BOLD_KINDS.includes(kind) ? "span" : "strong";
+  const words = element("p", {}, element(tag, { textContent: text }));
+  if (hint) words.append(element("span", { className: "ai4u-hint", textContent: hint }));
+  if (details) words.append(element("small", { textContent: details }));
+  if (score) words.append(element("small", { className: "ai4u-details-only", textContent: score }));
+  return words;
 }
 
 /**

@@ -4,7 +4,7 @@
 /** @import { RealNames } from "../teacher/real_names.js" */
 
 import { commandOrTell } from "../teacher/command.js";
-import { element, tableHead } from "../../shared/dom.js";
+import { element, keyed, setText, tableHead } from "../../shared/dom.js";
 import { t, tn } from "../../shared/text.js";
 import { showBegin, showStart } from "./dialogs.js";
 import { contestLine, dot, standingsTable } from "./tables.js";
@@ -23,6 +23,9 @@ const PHASES = {
   cancelled: t("It was cancelled."),
   failed: t("It was interrupted."),
 };
+
+/** Titles of the lists of results. */
+const LISTS = [t("Played last"), t("Best games to watch"), t("Taken out: they could not play against themselves")];
 
 export class TournamentBoard {
   #realNames;
@@ -55,30 +58,28 @@ export class TournamentBoard {
     this.#state = state;
     const { tournament, handed_in: handedIn, seats } = state;
     const results = tournament?.results ?? null;
-    // a part is told all that the tournament is, except for results, which are large
-    const about = { ...tournament, results: {} };
-    this.#draw("head", [about], () => this.#head());
-    this.#draw("problem", [handedIn?.missing, tournament?.problem], () => [[handedIn?.missing, tournament?.problem].filter(Boolean).join(" ")]);
-    this.#draw("course", [about, results?.games, results?.total], () => [tournament ? courseOf(tournament) : ""]);
+    this.#draw("head", [tournament?.phase, tournament?.title], (part) => part.replaceChildren(...this.#head()));
+    setText(this.#parts.problem, [handedIn?.missing, tournament?.problem].filter(Boolean).join(" "));
+    setText(this.#parts.course, tournament ? courseOf(tournament) : "");
     const students = seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat.name, this.#realNames.of(seat)]);
-    this.#draw("networks", [tournament?.scene, handedIn?.networks, students], () => this.#networks());
-    this.#draw("results", [results, students], () => (results ? this.#results(results) : []));
+    this.#draw("networks", [tournament?.scene, handedIn?.networks, students], (part) => part.replaceChildren(...this.#networks()));
+    this.#draw("results", [results, students], (part) => this.#drawResults(part, results));
   }
 
   /**
    * Draw a part again if its facts have changed; the focus stays where it was, or in the part.
-   * @param {"head" | "problem" | "course" | "results" | "networks"} name
+   * @param {"head" | "results" | "networks"} name
    * @param {unknown[]} facts
-   * @param {() => (Node | string)[]} make
+   * @param {(part: HTMLElement) => void} draw
    */
-  #draw(name, facts, make) {
+  #draw(name, facts, draw) {
     const part = this.#parts[name];
     const told = JSON.stringify(facts);
     if (this.#told.get(name) === told) return;
     this.#told.set(name, told);
     const focused = part.contains(document.activeElement) ? document.activeElement.textContent : null;
-    part.replaceChildren(...make());
-    if (focused === null) return;
+    draw(part);
+    if (focused === null || part.contains(document.activeElement)) return;
     const controls = [.../** @type {NodeListOf<HTMLElement>} */ (part.querySelectorAll("button, a"))];
     (controls.find(({ textContent }) => textContent === focused) ?? controls[0])?.focus();
   }
@@ -136,20 +137,24 @@ export class TournamentBoard {
     );
   }
 
-  /** @param {Results} results */
-  #results(results) {
+  /**
+   * Draw the results. What is in a list stays while more games are played, so that a click on it is not lost.
+   * @param {HTMLElement} part
+   * @param {Results | null} results
+   */
+  #drawResults(part, results) {
+    if (results === null) return part.replaceChildren();
+    if (!part.hasChildNodes()) part.append(scrolled(t("Standings")), ...LISTS.map(listed));
+    const [standings, latest, best, refused] = part.children;
     const nameOf = (/** @type {Entry} */ row) => this.#nameOf(this.#state.seats.find(({ number }) => number === row.seat) ?? row);
-    const latest = results.latest.map((contest) =>
-      element("li", {}, contestLine(contest), contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }), ...watched(contest, results).map(watch)),
-    );
-    const best = results.best.map((game) => element("li", {}, game.who.map(({ name }) => name).join(" – "), " ", watch(game), project(game)));
-    const refused = results.refused.map(({ name, reason }) => element("li", { textContent: `${name}: ${reason}` }));
-    return [
-      scrolled(t("Standings"), standingsTable(results, { nameOf })),
-      listed(t("Played last"), latest),
-      listed(t("Best games to watch"), best),
-      listed(t("Taken out: they could not play against themselves"), refused),
-    ].filter(Boolean);
+    standings.replaceChildren(standingsTable(results, { nameOf }));
+    fill(latest, results.latest, (contest) => [
+      contestLine(contest),
+      contest.problem && element("p", { className: "ai4u-facts", textContent: contest.problem }),
+      ...watched(contest, results).map(watch),
+    ]);
+    fill(best, results.best, (game) => [game.who.map(({ name }) => name).join(" – "), " ", watch(game), project(game)]);
+    fill(refused, results.refused, ({ name, reason }) => [`${name}: ${reason}`]);
   }
 
   /** @param {Seat | Entry} seat */
@@ -200,20 +205,25 @@ function project({ number }) {
   return shown;
 }
 
-/**
- * @param {string} title
- * @param {HTMLElement[]} items
- */
-function listed(title, items) {
-  return items.length > 0 && element("section", {}, element("h3", { textContent: title }), element("ol", { className: "ai4u-contests" }, ...items));
+/** @param {string} title */
+function listed(title) {
+  return element("section", {}, element("h3", { textContent: title }), element("ol", { className: "ai4u-contests" }));
 }
 
 /**
- * @param {string} label
- * @param {HTMLElement} table
+ * @template Item
+ * @param {Element} section with a list
+ * @param {Item[]} items none of them twice
+ * @param {(item: NoInfer<Item>) => (Node | string | false)[]} contentOf
  */
-function scrolled(label, table) {
-  return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": label }, table);
+function fill(section, items, contentOf) {
+  section.toggleAttribute("hidden", items.length === 0);
+  keyed(section.querySelector("ol"), items, JSON.stringify, (item) => element("li", {}, ...contentOf(item)));
+}
+
+/** @param {string} label */
+function scrolled(label) {
+  return element("div", { className: "ai4u-scroll", tabIndex: 0, role: "region", "aria-label": label });
 }
 
 /**
