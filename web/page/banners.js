@@ -1,7 +1,7 @@
 /** Banners at the top of the page (goal, outcome, pause, errors), each with a button; and the window's title. */
 
 /** @import { Commands, NetworkRace, StateEvent } from "../generated/messages.js" */
-import { element } from "../shared/dom.js";
+import { element, keyed } from "../shared/dom.js";
 /** @import { Result } from "./results.js" */
 import { t } from "../shared/text.js";
 import { capitalized } from "./driver_status.js";
@@ -84,11 +84,8 @@ export class Banners {
   #alertRegion = element("div", { className: "ai4u-banners", role: "alert" });
   /** Region of thoughts: no live one, as a screen reader would read out each of them. */
   #quietRegion = element("section", { className: "ai4u-banners", ariaLabel: t("What it thinks") });
-  /**
-   * The banner that is shown: an unchanged one is not read out again.
-   * @type {Banner | null}
-   */
-  #shown = null;
+  /** The banner that is shown, as JSON: an unchanged one is not read out again. */
+  #shown = "";
   #connectionError = "";
   #requestError = "";
   #timer = 0;
@@ -153,15 +150,21 @@ export class Banners {
     this.#lastDraw = [state, page];
     if (state?.title) document.title = state.title;
     const banner = this.#banner(state, page);
-    const before = this.#shown;
-    if (isSame(banner, before)) return;
-    this.#shown = banner;
-    const { kind, buttons } = banner ?? {};
+    const key = JSON.stringify(banner);
+    if (key === this.#shown) return;
+    this.#shown = key;
+    const { kind } = banner ?? {};
     const used = kind === "error" ? this.#alertRegion : kind === "thought" ? this.#quietRegion : this.#statusRegion;
-    for (const region of [this.#statusRegion, this.#alertRegion, this.#quietRegion]) if (region !== used) region.replaceChildren();
-    // a click is lost if its button is replaced before it ends, and the past changes its words many times a second
-    if (banner && before && isSame([kind, buttons], [before.kind, before.buttons])) used.querySelector("p").replaceWith(wordsOf(banner));
-    else used.replaceChildren(...(banner ? [this.#element(banner)] : []));
+    for (const region of [this.#statusRegion, this.#alertRegion, this.#quietRegion]) {
+      // buttons stay while the words change, as they do many times a second in the past: else a click is lost
+      keyed(
+        region,
+        banner && region === used ? [banner] : [],
+        ({ buttons }) => JSON.stringify([kind, buttons]),
+        (each) => this.#element(each),
+        (made, each) => made.firstElementChild.replaceWith(wordsOf(each)),
+      );
+    }
   }
 
   /**
@@ -186,10 +189,10 @@ export class Banners {
   }
 
   /** @param {Banner} banner */
-  #element(banner) {
-    const made = element("div", { className: "ai4u-banner" }, wordsOf(banner));
-    made.dataset.kind = banner.kind;
-    for (const name of banner.buttons ?? []) {
+  #element({ kind, buttons = [] }) {
+    const made = element("div", { className: "ai4u-banner" }, element("p"));
+    made.dataset.kind = kind;
+    for (const name of buttons) {
       const button = element("button", { type: "button", className: "ai4u-button", textContent: BUTTON_TEXTS[name] });
       button.addEventListener("click", () => this.#carryOut(name));
       made.append(button);
@@ -204,14 +207,6 @@ export class Banners {
     else if (name in this.#actions) this.#actions[name]();
     else this.#sendCommand(COMMANDS[name]);
   }
-}
-
-/**
- * @param {unknown} one
- * @param {unknown} other
- */
-function isSame(one, other) {
-  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 /** @param {Banner} banner */
