@@ -52,6 +52,20 @@ def _one_tls_context() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _own_blocks_end_with_their_module() -> Iterator[None]:
+    """Forget blocks that a module's tests have loaded, with their files.
+
+    A process that a later test starts is told to load them, from files that may be others by then.
+    """
+    yield
+    from ai4u_edu.blocks import Block
+    from ai4u_edu.blocks.loading import PREFIX
+
+    types = Block.types.items()
+    Block.types = {name: cls for name, cls in types if not cls.__module__.startswith(PREFIX)}
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("tiers of this project")
     group.addoption("--fast", action="store_true", help="no browser, no torch, nothing slow")
@@ -110,6 +124,10 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.freeze()
         gc.set_threshold(*gc.get_threshold()[:2], COLLECTIONS_BEFORE_OLDEST)
         gc.enable()
+
+
+def pytest_runtest_logstart(nodeid: str) -> None:
+    evidence.begun.append(nodeid)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -31,6 +31,8 @@ class Witness(Protocol):
         ...
 
 
+begun: list[str] = []
+"""Ids of the tests that this process has begun: an earlier one may be the cause of a failure."""
 _witnesses: WeakSet[Any] = WeakSet()  # of Witness; a traceback keeps those of its test alive
 
 
@@ -101,6 +103,7 @@ def keep(report: pytest.TestReport, results: Path) -> None:
 def _files(report: pytest.TestReport) -> Iterator[tuple[str, str | bytes]]:
     sections = [f"--- {title}\n{text}" for title, text in report.sections]
     yield f"{report.when}.txt", "\n".join([report.longreprtext, *sections])
+    yield "tests-before.txt", "\n".join(begun[:-1])
     for witness in list(_witnesses):
         try:
             yield from witness.testify().items()

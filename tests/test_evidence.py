@@ -38,6 +38,13 @@ def test_story():
         page.receive("error")
         assert room.held == ["KeyW"]
 """
+WITH_TEST_BEFORE = """
+def test_before():
+    pass
+
+def test_story():
+    assert False
+"""
 WITH_ERROR_IN_FIXTURE = """
 import logging
 import pytest
@@ -88,3 +95,7 @@ def test_of_a_client_its_last_messages_are_kept(tmp_path: Path) -> None:
 
 def test_of_an_error_in_a_fixture_its_log_is_kept(tmp_path: Path) -> None:
     assert b"it is broken" in failed(tmp_path, WITH_ERROR_IN_FIXTURE)["setup.txt"]
+
+
+def test_the_tests_that_the_process_had_run_before_are_named(tmp_path: Path) -> None:
+    assert failed(tmp_path, WITH_TEST_BEFORE)["tests-before.txt"].endswith(b"::test_before")

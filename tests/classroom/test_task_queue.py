@@ -65,6 +65,7 @@ class Asking:
         """Return the values that are done."""
         lines = (self.folder(room, key) / NOTES).read_bytes().splitlines()
         notes = [msgspec.json.decode(line, type=tries.TryNote) for line in lines]
+        assert [note.problem for note in notes if note.problem] == []
         return [note.row.value for note in notes if note.row is not None]
 
 
