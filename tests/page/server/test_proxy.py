@@ -334,7 +334,8 @@ def test_a_slow_page_slows_its_stream_down_and_nothing_piles_up(
             unchanged = unchanged + 1 if sent[0] == before else 0
             assert sent[0] < 20_000_000, "what lies in the buffers of the system, and no more"
     slow.close()
-    assert caplog.records == []
+    # asyncio tells of a stand-in that ends its stream just after the other side was cut off
+    assert [each for each in caplog.records if each.name != "asyncio"] == []
 
 
 @pytest.mark.slow
