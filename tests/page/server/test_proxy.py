@@ -1,12 +1,14 @@
 """viser behind our port: a real one, and stand-ins that misbehave."""
 
 import asyncio
+import errno
 import socket
 import threading
 import time
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
+from typing import Any
 
 import msgspec
 import pytest
@@ -126,6 +128,7 @@ def stand_in(behave: Behaviour) -> Iterator[int]:
     ports: list[int] = []
     ready = threading.Event()
     loop = asyncio.new_event_loop()
+    loop.set_exception_handler(tell_unless_cut_off)
     end = asyncio.Event()
 
     async def run() -> None:
@@ -143,6 +146,16 @@ def stand_in(behave: Behaviour) -> Iterator[int]:
         loop.call_soon_threadsafe(end.set)
         thread.join()
         loop.close()
+
+
+def tell_unless_cut_off(loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+    """Tell of an error, but not of a stream's end that is sent after the other side was cut off.
+
+    asyncio does not catch it where the end had to wait for a full buffer.
+    """
+    error = context.get("exception")
+    if not isinstance(error, OSError) or error.errno != errno.ENOTCONN:
+        loop.default_exception_handler(context)
 
 
 def typed(size: int) -> dict[str, object]:
@@ -334,8 +347,7 @@ def test_a_slow_page_slows_its_stream_down_and_nothing_piles_up(
             unchanged = unchanged + 1 if sent[0] == before else 0
             assert sent[0] < 20_000_000, "what lies in the buffers of the system, and no more"
     slow.close()
-    # asyncio tells of a stand-in that ends its stream just after the other side was cut off
-    assert [each for each in caplog.records if each.name != "asyncio"] == []
+    assert caplog.records == []
 
 
 @pytest.mark.slow
