@@ -24,7 +24,7 @@ from ai4u_edu import (
     check_scene,
     check_sensor,
 )
-from ai4u_edu.base.errors import SceneError, SetupError
+from ai4u_edu.base.errors import SceneError
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.check import Outcome
 from ai4u_edu.page.panel.parts.agent import RewardRow, agent_part
@@ -39,10 +39,9 @@ HERE = Path(__file__).parent / "newcomer"
 
 @pytest.fixture
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder outside the package with the newcomer's files; what they define ends with a test."""
+    """A folder outside the package with the newcomer's files."""
     for name in ("robot.py", "robot_scene.yaml"):
         shutil.copy(HERE / name, tmp_path)
-    monkeypatch.setattr(Block, "types", dict(Block.types))
     monkeypatch.setattr(sys, "path", list(sys.path))
     return tmp_path
 
@@ -179,39 +178,3 @@ def test_a_scene_file_can_not_name_code(home: Path) -> None:
     text = (home / "robot_scene.yaml").read_text()
     with pytest.raises(SceneError, match="line 1: blocks: unknown parameter"):
         Scene.loads(f"blocks: robot.py\n{text}")
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("x = 1\n", ": defines no block; expected a class made from Sensor, Actuator, RewardFunc, "
-         "Brain or Controller"),
-        ("from ai4u_edu import Sensor\n\nclass Ear(Sensr):\n    pass\n",
-         ", line 3: NameError: name 'Sensr' is not defined"),
-        ("class Ear(\n", ", line 1: SyntaxError: '(' was never closed"),
-        ("import sys\nsys.exit('bye')\n", ", line 2: SystemExit: bye"),
-        ("from ai4u_edu import Sensor\nclass TouchSensor(Sensor):\n    '''Mine.'''\n",
-         ": TouchSensor is the name of a built-in block; expected another name"),
-        ("from ai4u_edu import TouchSensor\nclass Ear(TouchSensor):\n    '''Mine.'''\nEar()\n",
-         ", line 4: ParameterError: Ear: target: is missing and has no default"),
-    ],
-)  # fmt: skip
-def test_what_is_wrong_in_a_file_is_told_and_nothing_is_known_of_it(
-    home: Path, text: str, told: str
-) -> None:
-    before = dict(Block.types)
-    (home / "mine.py").write_text(text)
-    with pytest.raises(SetupError) as caught:
-        load_blocks(home / "mine.py")
-    assert str(caught.value) == f"{home / 'mine.py'}{told}"
-    assert Block.types == before
-
-
-def test_what_lies_beside_the_file_can_be_imported(home: Path) -> None:
-    (home / "own_numbers.py").write_text("REACH = 3.0\n")
-    (home / "ear.py").write_text(
-        "from own_numbers import REACH\nfrom ai4u_edu import Sensor\n\n"
-        "class Ear(Sensor):\n    reach: float = REACH\n"
-    )
-    (ear,) = load_blocks(home / "ear.py")
-    assert ear().values()["reach"] == 3.0

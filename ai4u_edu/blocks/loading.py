@@ -1,5 +1,6 @@
 """Loading of a user's own blocks from a Python file, which runs with all rights."""
 
+import hashlib
 import importlib.util
 import sys
 import traceback
@@ -12,6 +13,9 @@ from ai4u_edu.locale import join
 
 PREFIX = "own_blocks_"
 """Prefix of the names of modules that are made from such files."""
+
+_loaded: dict[Path, list[type[Block]]] = {}
+"""Blocks of each file that was loaded, in the order in which the files were."""
 
 
 def load_blocks(path: Path) -> list[type[Block]]:
@@ -29,13 +33,14 @@ def load_blocks(path: Path) -> list[type[Block]]:
         SetupError: the file can't be read or run, defines no block, or one with the name of a
             built-in one; then no new classes are registered.
     """
-    name = f"{PREFIX}{path.stem}"
-    spec = importlib.util.spec_from_file_location(name, path)
+    file = path.absolute()
+    name = _module_name(file)
+    spec = importlib.util.spec_from_file_location(name, file)
     if path.suffix != ".py" or not path.is_file() or spec is None or spec.loader is None:
         raise SetupError(
             _("{path}: expected a Python file (.py) with blocks of your own", path=str(path))
         )
-    before = Block.types
+    before, module_before = Block.types, sys.modules.get(name)
     module = sys.modules[name] = importlib.util.module_from_spec(spec)
     beside = str(path.parent.resolve())
     if beside not in sys.path:
@@ -61,29 +66,44 @@ def load_blocks(path: Path) -> list[type[Block]]:
         )
     if problem:
         Block.types = before
+        sys.modules.pop(name, None)
+        if module_before is not None:
+            sys.modules[name] = module_before
         raise SetupError(problem)
-    return list(found.values())
+    _loaded.pop(file, None)  # what is loaded again comes last
+    _loaded[file] = list(found.values())
+    return _loaded[file].copy()
 
 
 def own_files() -> list[Path]:
-    """Return the files whose blocks are loaded, so that a child process can load them too."""
-    modules = {cls.__module__ for cls in Block.types.values()}
-    files = [
-        getattr(sys.modules.get(name), "__file__", None)
-        for name in sorted(modules)
-        if name.startswith(PREFIX)
+    """Return the files whose blocks are loaded, so that a child process can load them too.
+
+    Returns:
+        Absolute paths, in the order in which the files were loaded: of two blocks with one name,
+        the last holds there as well.
+    """
+    return [
+        file
+        for file, classes in _loaded.items()
+        if any(Block.types.get(cls.__name__) is cls for cls in classes)
     ]
-    return [Path(file) for file in files if file]
+
+
+def _module_name(file: Path) -> str:
+    """Return a module's name that no file in another folder has; equal in every process."""
+    digest = hashlib.sha256(str(file).encode()).hexdigest()
+    return f"{PREFIX}{file.stem.replace('.', '_')}_{digest[:16]}"
 
 
 def _place(path: Path, error: BaseException) -> str:
     """Return the file, and the line in it that raised the error."""
-    if isinstance(error, SyntaxError) and error.filename == str(path):
+    file = str(path.absolute())  # the name that its code was compiled with
+    if isinstance(error, SyntaxError) and error.filename == file:
         return _("{path}, line {line}", path=str(path), line=error.lineno or 0)
     lines = [
         frame.lineno
         for frame in traceback.extract_tb(error.__traceback__)
-        if frame.filename == str(path)
+        if frame.filename == file
     ]
     return _("{path}, line {line}", path=str(path), line=lines[-1] or 0) if lines else str(path)
 
