@@ -52,9 +52,9 @@ def _one_tls_context() -> Iterator[None]:
         yield
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _own_blocks_end_with_their_module() -> Iterator[None]:
-    """Forget blocks that a module's tests have loaded, with their files.
+@pytest.fixture(autouse=True)
+def _own_blocks_end_with_their_test() -> Iterator[None]:
+    """Forget blocks that a test has loaded, with their files.
 
     A process that a later test starts is told to load them, from files that may be others by then.
     """

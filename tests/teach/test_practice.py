@@ -10,7 +10,6 @@ import pytest
 
 from ai4u_edu import Scene
 from ai4u_edu.blocks import NeuralNetController
-from ai4u_edu.blocks.block import Block
 from ai4u_edu.blocks.loading import load_blocks
 from ai4u_edu.page.editing.drivers import NETWORK
 from ai4u_edu.recording import Episode
@@ -207,29 +206,22 @@ def test_a_practice_goes_on_in_its_scene_though_the_robot_is_gone(
 def test_a_block_that_fails_or_hangs_is_named(tmp_path: Path, body: str, problem: str) -> None:
     file = tmp_path / "lamp.py"
     file.write_text(BLOCK.format(body=body))
-    before = dict(Block.types)
-    try:
-        load_blocks(file)
-        text = Scene.load("box_chase").dumps()
-        scene = Scene.loads(
-            text.replace("\n    rewards:\n", "\n    rewards:\n      - type: Lamp\n")
-        )
-        ends: list[Practice] = []
-        request = PracticeRequest(scene.dumps(), "box_chase", "", "0", SOON, 0, {})
-        folder, request = PracticeFolder(tmp_path / "practices").add("box_chase", request)
-        practice = Practice(
-            folder,
-            request,
-            start=lambda _, given: PracticeProcess(given),
-            on_progress=lambda _: None,
-            on_end=ends.append,
-        )
-        practice.go_on()
-        until(lambda: ends)
-        assert problem in practice.problem
-    finally:
-        Block.types.clear()
-        Block.types.update(before)
+    load_blocks(file)
+    text = Scene.load("box_chase").dumps()
+    scene = Scene.loads(text.replace("\n    rewards:\n", "\n    rewards:\n      - type: Lamp\n"))
+    ends: list[Practice] = []
+    request = PracticeRequest(scene.dumps(), "box_chase", "", "0", SOON, 0, {})
+    folder, request = PracticeFolder(tmp_path / "practices").add("box_chase", request)
+    practice = Practice(
+        folder,
+        request,
+        start=lambda _, given: PracticeProcess(given),
+        on_progress=lambda _: None,
+        on_end=ends.append,
+    )
+    practice.go_on()
+    until(lambda: ends)
+    assert problem in practice.problem
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL, and the state folder of XDG")

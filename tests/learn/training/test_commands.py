@@ -1,7 +1,6 @@
 """The commands, from learning to driving in the page."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -74,16 +73,6 @@ class Compass(Sensor):
 """
 
 
-@pytest.fixture
-def no_own_blocks() -> Iterator[None]:
-    """Blocks that a test's commands loaded are forgotten again."""
-    before = dict(Block.types)
-    yield
-    Block.types.clear()
-    Block.types.update(before)
-
-
-@pytest.mark.usefixtures("no_own_blocks")
 def test_a_scene_with_blocks_of_ones_own_is_learned(tmp_path: Path) -> None:
     built_in = dict(Block.types)
 
@@ -132,7 +121,6 @@ class Ahead(Controller):
 """
 
 
-@pytest.mark.usefixtures("no_own_blocks")
 def test_whoever_can_be_recorded_can_be_watched(tmp_path: Path) -> None:
     file = tmp_path / "mine.py"
     file.write_text(DRIVERS)
