@@ -323,3 +323,25 @@ def test_two_drivers_on_the_episode(tab: TabPage) -> None:
     tab.give({"can_edit": False}, "scene")
     tab.give({**PART, "playing": PLAYING})
     expect(title).to_be_hidden()
+
+
+def test_a_click_counts_though_an_episode_ends_before_it_is_let_go(tab: TabPage) -> None:
+    tab.head("Episode 3 · Donut").hover()
+    tab.page.mouse.down()
+    tab.give({**PART, "episodes": [*PART["episodes"], {**MINE, "number": 5}]})
+    tab.page.mouse.up()
+    until_on(tab.page, lambda: tab.shown["episode"] == 3)
+    expect(tab.head("Episode 5 · Donut")).to_be_visible()
+
+
+def test_an_episode_that_ends_during_a_press_appears_when_it_is_let_go_elsewhere(
+    tab: TabPage,
+) -> None:
+    tab.head("Episode 3 · Donut").hover()
+    tab.page.mouse.down()
+    tab.give({**PART, "episodes": [*PART["episodes"], {**MINE, "number": 5}]})
+    expect(tab.head("Episode 5 · Donut")).to_have_count(0)
+    tab.page.mouse.move(0, 0)
+    tab.page.mouse.up()
+    expect(tab.head("Episode 5 · Donut")).to_be_visible()
+    assert tab.shown["episode"] is None

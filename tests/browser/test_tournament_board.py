@@ -103,12 +103,16 @@ def test_the_teacher_begins_starts_and_ends_a_tournament_by_keyboard(
 def test_a_click_counts_though_a_game_ends_before_the_button_is_let_go(
     page: Page, school: WallServer
 ) -> None:
+    page.set_viewport_size({"width": 700, "height": 900})  # one column: what ends moves the rest
     board = page.get_by_role("tabpanel", name="Tournament")
     played = tournament(6)
     school.send(tournament=played)
     board.get_by_role("button", name="Game 3 to the projector").hover()
     page.mouse.down()
-    results = {**played["results"], "games": played["results"]["games"] + 1}
+    before = played["results"]
+    contest = {**before["latest"][0], "problem": "One of them took too long."}
+    latest = [contest, *before["latest"]]
+    results = {**before, "games": before["games"] + 1, "latest": latest}
     school.send(tournament={**played, "results": results})
     expect(board).to_contain_text(f"{results['games']} of {results['total']} games")
     page.mouse.up()

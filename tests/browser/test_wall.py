@@ -308,6 +308,30 @@ def test_mistakes_in_programs_come_first_and_all_programs_are_seen(
     page.get_by_role("tab", name="Wall").click()
 
 
+def test_a_click_counts_though_a_program_stops_before_it_is_let_go(
+    page: Page, school: WallServer
+) -> None:
+    school.programs = [
+        {"seat": seat, "name": "", "source": "pass\n", "scene": "maze", "agent": "0", "age": 5.0}
+        for seat in (1, 2)
+    ]
+    first, second = (seat["name"] for seat in school.state["seats"][:2])
+    page.get_by_role("tab", name="Programs").click()
+    glances = page.get_by_role("tabpanel", name="Programs").get_by_role("listitem")
+    expect(glances).to_contain_text([first, second])
+    glances.first.hover()
+    page.mouse.down()
+    stopped = {"state": "mistake", "text": "nothing is called x", "line": 1}
+    school.send(runs={"2": stopped})
+    expect(page.get_by_role("tab", name="Programs (1 stopped)")).to_be_visible()
+    page.mouse.up()
+    dialog = page.get_by_role("dialog", name=f"Code: {first}")
+    expect(dialog).to_be_visible()
+    dialog.get_by_role("button", name="Close").click()
+    expect(glances).to_contain_text([second, first])
+    page.get_by_role("tab", name="Wall").click()
+
+
 def test_attention_is_begun_shown_and_ended(page: Page, school: WallServer) -> None:
     page.get_by_role("button", name="Attention…").click()
     dialog = page.get_by_role("dialog", name="Attention")

@@ -132,6 +132,44 @@ export function keyed(parent, items, keyOf, make, update = () => {}) {
 }
 
 /**
+ * Element that a pointer presses.
+ * @type {Node | null}
+ */
+let pressed = null;
+/**
+ * Changes that wait until it is let go, by the parent of what they move.
+ * @type {Map<Node, () => void>}
+ */
+const postponed = new Map();
+
+function release() {
+  pressed = null;
+  const changes = [...postponed.values()];
+  postponed.clear();
+  for (const change of changes) change();
+}
+
+addEventListener("pointerdown", ({ target }) => (pressed = /** @type {Node} */ (target)), { capture: true });
+// a click's handlers are chosen already; after the other two none comes
+for (const type of ["click", "pointercancel", "contextmenu"]) addEventListener(type, release, { capture: true });
+addEventListener("pointerup", () => requestAnimationFrame(release), { capture: true }); // let go elsewhere: no click comes
+
+/**
+ * Make a change that may move a parent's children; while one of them is pressed, when it is let go: a button that
+ * moves away meanwhile gets no click.
+ * @param {Node} parent
+ * @param {() => void} change
+ */
+export function unlessPressed(parent, change) {
+  if (pressed && parent.contains(pressed)) {
+    postponed.set(parent, change);
+    return;
+  }
+  postponed.delete(parent);
+  change();
+}
+
+/**
  * Return a text as nodes: what stands in stars is bold.
  * @param {string} text
  */

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
 
-import { openWindow } from "../browser.mjs";
+import { openWindow, send } from "../browser.mjs";
 
 openWindow();
-const { element, keyed } = await import("../../../web/shared/dom.js");
+const { element, keyed, unlessPressed } = await import("../../../web/shared/dom.js");
 
 test("an element gets properties, attributes where there is no such property, data and handlers", () => {
   let clicks = 0;
@@ -69,4 +69,32 @@ test("an element that stays is brought up to date and not moved: it may have the
   show("cab");
   assert.equal(keys(), "cab");
   assert.deepEqual([list.moves, list.children[1].text], [1, "text a"]);
+});
+
+/** A parent of the children a, b and c. */
+const parent = { contains: (child) => "abc".includes(child) };
+
+for (const type of ["click", "pointercancel", "contextmenu", "pointerup"]) {
+  test(`a change waits while a child is pressed, until ${type}; only the last is made`, () => {
+    const made = [];
+    const frames = [];
+    globalThis.requestAnimationFrame = (draw) => frames.push(draw);
+    send("pointerdown", { target: "b" });
+    unlessPressed(parent, () => made.push("first"));
+    unlessPressed(parent, () => made.push("last"));
+    assert.deepEqual(made, []);
+    send(type);
+    for (const draw of frames) draw();
+    assert.deepEqual(made, ["last"]);
+    unlessPressed(parent, () => made.push("next"));
+    assert.deepEqual(made, ["last", "next"]);
+  });
+}
+
+test("a change waits for nothing that is pressed elsewhere", () => {
+  let made = 0;
+  send("pointerdown", { target: "z" });
+  unlessPressed(parent, () => (made += 1));
+  send("click");
+  assert.equal(made, 1);
 });

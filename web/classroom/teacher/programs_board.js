@@ -4,7 +4,7 @@
 /** @import { RealNames } from "./real_names.js" */
 
 import { splitProgram } from "../../blocks/text.js";
-import { element, keyed, setAttributes, setText } from "../../shared/dom.js";
+import { element, keyed, setAttributes, setText, unlessPressed } from "../../shared/dom.js";
 import { t } from "../../shared/text.js";
 import { mistakeCard } from "./misconceptions.js";
 import { programFacts, programsOf } from "./room_programs.js";
@@ -54,14 +54,11 @@ export class ProgramsBoard {
    */
   show(state) {
     this.#state = state;
-    this.#drawMistakes();
+    unlessPressed(this.#place, () => this.#draw());
     if (this.#place.hidden) {
       clearTimeout(this.#timer);
       this.#timer = 0;
-      return;
-    }
-    this.#draw();
-    if (!this.#timer) this.#read();
+    } else if (!this.#timer) this.#read();
   }
 
   async #read() {
@@ -72,7 +69,12 @@ export class ProgramsBoard {
     } catch (error) {
       setText(this.#problem, error.message);
     }
-    this.#draw();
+    unlessPressed(this.#place, () => this.#draw());
+  }
+
+  #draw() {
+    this.#drawMistakes();
+    if (!this.#place.hidden) this.#drawPrograms();
   }
 
   #drawMistakes() {
@@ -88,7 +90,7 @@ export class ProgramsBoard {
   }
 
   /** Draw the programs that a mistake has stopped first. */
-  #draw() {
+  #drawPrograms() {
     const { seats, runs = {} } = this.#state;
     const here = new Map(seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat]));
     const isStopped = (/** @type {SeatProgram} */ { seat }) => runs[seat]?.state === "mistake";

@@ -4,7 +4,7 @@
 /** @import { RealNames } from "../teacher/real_names.js" */
 
 import { commandOrTell } from "../teacher/command.js";
-import { element, keyed, setText, tableHead } from "../../shared/dom.js";
+import { element, keyed, setText, tableHead, unlessPressed } from "../../shared/dom.js";
 import { t, tn } from "../../shared/text.js";
 import { showBegin, showStart } from "./dialogs.js";
 import { contestLine, dot, standingsTable } from "./tables.js";
@@ -28,6 +28,7 @@ const PHASES = {
 const LISTS = [t("Played last"), t("Best games to watch"), t("Taken out: they could not play against themselves")];
 
 export class TournamentBoard {
+  #place;
   #realNames;
   /** @type {ClassState | null} */
   #state = null;
@@ -49,6 +50,7 @@ export class TournamentBoard {
    * @param {RealNames} realNames
    */
   constructor(place, realNames) {
+    this.#place = place;
     this.#realNames = realNames;
     place.append(...Object.values(this.#parts));
   }
@@ -56,11 +58,15 @@ export class TournamentBoard {
   /** @param {ClassState} state */
   show(state) {
     this.#state = state;
-    const { tournament, handed_in: handedIn, seats } = state;
+    setText(this.#parts.course, state.tournament ? courseOf(state.tournament) : "");
+    unlessPressed(this.#place, () => this.#drawParts(state));
+  }
+
+  /** @param {ClassState} state */
+  #drawParts({ tournament, handed_in: handedIn, seats }) {
     const results = tournament?.results ?? null;
-    this.#draw("head", [tournament?.phase, tournament?.title], (part) => part.replaceChildren(...this.#head()));
     setText(this.#parts.problem, [handedIn?.missing, tournament?.problem].filter(Boolean).join(" "));
-    setText(this.#parts.course, tournament ? courseOf(tournament) : "");
+    this.#draw("head", [tournament?.phase, tournament?.title], (part) => part.replaceChildren(...this.#head()));
     const students = seats.filter((seat) => seat.state === "in").map((seat) => [seat.number, seat.name, this.#realNames.of(seat)]);
     this.#draw("networks", [tournament?.scene, handedIn?.networks, students], (part) => part.replaceChildren(...this.#networks()));
     this.#draw("results", [results, students], (part) => this.#drawResults(part, results));

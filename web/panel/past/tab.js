@@ -4,7 +4,7 @@
  * @import { KeptEpisode, PastPart } from "../../generated/messages.js"
  * @import { Panel } from "../panel.js"
  */
-import { button, element, fileButton, keyed } from "../../shared/dom.js";
+import { button, element, fileButton, keyed, unlessPressed } from "../../shared/dom.js";
 import { sizeProblem } from "../../shared/numbers.js";
 import { t } from "../../shared/text.js";
 import { Comparison } from "./compare.js";
@@ -17,6 +17,7 @@ import { Player } from "./player.js";
 const RUNNING_EPISODE = 0;
 
 export class PastTab {
+  #root;
   #panel;
   #player;
   #comparison;
@@ -36,6 +37,7 @@ export class PastTab {
    * @param {Panel} panel
    */
   constructor(root, panel) {
+    this.#root = root;
     this.#panel = panel;
     this.#player = new Player(panel);
     this.#comparison = new Comparison(panel);
@@ -62,6 +64,11 @@ export class PastTab {
       this.#wantsRunning = false;
       this.#panel.send("step", { step: part.playing.step }, { quiet: true });
     }
+    unlessPressed(this.#root, () => this.#updateCards(part));
+  }
+
+  /** @param {PastPart} part */
+  #updateCards(part) {
     const episodes = [...(part.episodes ?? [])].sort((a, b) => b.number - a.number);
     const numbers = new Set(episodes.map(({ number }) => number));
     for (const number of [...this.#cards.keys()]) if (!numbers.has(number)) this.#cards.delete(number);
