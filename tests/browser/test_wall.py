@@ -599,30 +599,3 @@ def test_the_projector_follows_the_teacher(chromium: Browser, school: WallServer
     expect(page.locator("#wall li")).to_have_count(COUNT)
     expect(page.locator("#wall [data-help]")).to_have_count(0)
     close_page(page)
-
-
-def test_check_says_yes_and_a_move_code_takes_the_names_away(
-    chromium: Browser, school: WallServer
-) -> None:
-    page = quick_page(chromium)
-    page.goto(f"{school.url}check")
-    expect(page.get_by_role("status")).to_have_text("Yes, this device can join.")
-    line = page.get_by_role("listitem").filter(has_text="Keys arrive")
-    expect(line).to_contain_text("Press an arrow key or W now.")
-    page.keyboard.press("KeyW")
-    expect(line).to_contain_text("yes")
-    page.route_web_socket("**/check/socket", lambda socket: socket.close())
-    page.reload()
-    expect(page.get_by_text("A proxy or firewall")).to_be_visible()
-
-    page.goto(f"{school.url}join?code={CODE}")
-    expect(page.locator("#code")).to_have_value(CODE)
-    page.get_by_role("button", name="Continue from another device").click()
-    expect(page.get_by_text("Choose your name here")).to_be_hidden()
-    page.get_by_label("Code on your other device").fill("K7QPM")
-    page.keyboard.press("Enter")
-    until(lambda: school.commands != [])
-    assert school.commands[0]["code"] == "K7QPM"
-    assert school.commands[0]["name"] == ""
-    page.wait_for_url("**/privacy")  # the room; Playwright may not close a page on its way
-    close_page(page)
