@@ -49,8 +49,6 @@ TEACHERS_PATHS = (
     "teacher/socket",
     "projector/socket",
 )
-TOLD_LINES = 40
-"""Lines of the class's output that are shown after a run; they say why a room ended."""
 ENTERED = ("200", "open")
 """Answers to those who get in."""
 
@@ -110,7 +108,7 @@ def attack_class(seconds: float, seed: int, folder: Path) -> tuple[Tally, list[s
         _join(attack.tally, scripts)  # one waits as long as its world stands still
     told = "".join(served.told)
     attack.tally.wrong += tracebacks_in(told)
-    return attack.tally, [*lines, "The class said at the end:", *told.splitlines()[-TOLD_LINES:]]
+    return attack.tally, [*lines, "The class said:", *told.splitlines()]  # also why a room ended
 
 
 def misuse_panel(attack: Attack, student: Student, rng: random.Random) -> None:
