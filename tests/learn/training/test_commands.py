@@ -74,11 +74,10 @@ class Compass(Sensor):
 
 
 def test_a_scene_with_blocks_of_ones_own_is_learned(tmp_path: Path) -> None:
-    built_in = dict(Block.types)
+    built_in = Block.types
 
     def forget() -> None:
-        Block.types.clear()
-        Block.types.update(built_in)
+        Block.types = built_in
 
     blocks, scene, mine = tmp_path / "own.py", tmp_path / "own.yaml", tmp_path / "mine.yaml"
     blocks.write_text(OWN)
