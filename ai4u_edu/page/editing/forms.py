@@ -14,6 +14,7 @@ from ai4u_edu.locale import Text, join
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.page.editing.blocks import KINDS
 from ai4u_edu.page.editing.errors import ChangeError
+from ai4u_edu.page.editing.input_checks import schema_of
 from ai4u_edu.page.editing.plain import Plain
 from ai4u_edu.page.editing.scene_names import SceneNames
 from ai4u_edu.scenes.yaml.tree import NotYamlError, read_tree
@@ -132,7 +133,7 @@ def block_form(block: Plain, names: SceneNames) -> list[ParameterField]:
         names: names in the scene to choose from.
     """
     cls = Block.types[str(block["type"])]
-    schema = cls.json_schema()
+    schema = schema_of(cls)
     common = {name for base in BASES if issubclass(cls, base) for name in base.parameters()}
     fields = [
         field_of(

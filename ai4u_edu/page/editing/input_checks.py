@@ -116,11 +116,15 @@ def check_typed_and(values: Any, schema: Mapping[str, Any], check: Callable[[], 
     return found
 
 
-def schema_of(cls: type[Parameterized]) -> dict[str, Any]:
-    """Return the cached JSON Schema of a block or an agent."""
+def schema_of(cls: type[Parameterized | BaseModel]) -> dict[str, Any]:
+    """Return the JSON Schema of a block, an agent or a model; it is kept, and not to be changed.
+
+    To derive it takes longer than all else that a form is made of.
+    """
     found = _schemas.get(cls)
     if found is None:
-        found = _schemas[cls] = cls.json_schema()
+        found = cls.model_json_schema() if issubclass(cls, BaseModel) else cls.json_schema()
+        _schemas[cls] = found
     return found
 
 

@@ -71,9 +71,9 @@ FIELD_WORDS = {
 def agent_form(agent: Plain) -> list[ParameterField]:
     """Return the form of an agent: its parameters, and those of its enabled brain's rhythm."""
     brain = blocks.block_at(agent, brain_of(agent))
-    schema = BasicAgent.json_schema()
+    schema = schema_of(BasicAgent)
     return [
-        *_fields(Block.types[str(brain["type"])].json_schema(), RHYTHM, brain),
+        *_fields(schema_of(Block.types[str(brain["type"])]), RHYTHM, brain),
         *_fields(schema, RUNTIME_PARAMETERS, agent),
         *_applying_later(_fields(schema, ("priority",), agent)),
     ]
@@ -87,8 +87,7 @@ def problems_in_agent_form(problems: Iterable[ParameterProblem]) -> Iterator[Par
 
 def scene_form(scene: SceneDescription) -> list[ParameterField]:
     """Return the form of a scene: its texts, its agents' scheduling, its world's settings."""
-    schema = TypeAdapter(SceneDescription).json_schema()
-    world = WorldSettings.model_json_schema()
+    schema, world = schema_of(SceneDescription), schema_of(WorldSettings)
     settings = scene.world.model_dump()
     return [
         *_fields(schema, TEXTS, {name: getattr(scene, name) for name in TEXTS}),
@@ -117,7 +116,7 @@ def field_form(scene: SceneDescription) -> list[ParameterField]:
     if field is None:
         return [kind]
     values = field.model_dump(mode="json")
-    about = FIELDS[field.type].model_json_schema()["properties"]
+    about = schema_of(FIELDS[field.type])["properties"]
     bodies = [body.name for body in scene.bodies]
     names = {"start": bodies, "goal": [*bodies, *(area.name for area in scene.areas)]}
     fields = [
@@ -206,7 +205,7 @@ def with_scene_settings(scene: SceneDescription, values: Plain) -> SceneDescript
     Raises:
         ChangeError: some values are wrong, or no parameter has such a name.
     """
-    check_typed(values, WorldSettings.model_json_schema())
+    check_typed(values, schema_of(WorldSettings))
     own = {name: values[name] for name in _ADAPTERS if name in values}
     settings = scene.world.model_dump(exclude_defaults=True)
     settings |= {name: value for name, value in values.items() if name not in own}

@@ -16,6 +16,7 @@ from ai4u_edu.page.editing.input_checks import (
     check_plain,
     check_typed,
     check_typed_and,
+    schema_of,
 )
 from ai4u_edu.page.editing.state import EditState
 from ai4u_edu.world import AreaDescription, BodyDescription, FloorDescription
@@ -31,7 +32,6 @@ KINDS: Mapping[ThingKind, type[Thing]] = {
     "floors": FloorDescription,
     "areas": AreaDescription,
 }
-_SCHEMAS = {kind: cls.model_json_schema() for kind, cls in KINDS.items()}
 
 
 def thing_named(state: EditState, name: str) -> Thing:
@@ -70,7 +70,7 @@ def checked_description(given: Thing | Mapping[str, Any], kind: ThingKind = "bod
     cls = KINDS[kind]
     if isinstance(given, cls):
         return given
-    check_typed(given, _SCHEMAS[kind])
+    check_typed(given, schema_of(KINDS[kind]))
     if not isinstance(given, Mapping):
         text = _("expected parameters by name, got {values}", values=shown(given))
         raise ChangeError([ParameterProblem((), text)])
@@ -117,7 +117,9 @@ def with_changed_thing(state: EditState, name: str, values: Mapping[str, Any]) -
     if "shape" not in values:
         given["shape"] = thing.shape
     named = {key: value for key, value in given.items() if value is not None}
-    other = check_typed_and(values, _SCHEMAS[kind], lambda: checked_description(named, kind))
+    other = check_typed_and(
+        values, schema_of(KINDS[kind]), lambda: checked_description(named, kind)
+    )
     if other.name != name and any(each.name == other.name for each in state.description.things):
         text = _("something is named {name!r} already", name=other.name)
         raise ChangeError([ParameterProblem(("name",), text)])
