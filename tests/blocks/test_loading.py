@@ -3,21 +3,31 @@
 import pickle
 import subprocess
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
 from ai4u_edu import Block
 from ai4u_edu.base.errors import SetupError
-from ai4u_edu.blocks.loading import load_blocks, own_files
+from ai4u_edu.blocks.loading import load_blocks, own_files, run_file
 
 EAR = "from ai4u_edu import Sensor\n\nclass Ear(Sensor):\n    reach: float = {reach}\n"
 NOSE = "from ai4u_edu import Sensor\n\nclass Nose(Sensor):\n    '''Smells.'''\n"
 
 
 @pytest.fixture(autouse=True)
-def _path_ends_with_the_test(monkeypatch: pytest.MonkeyPatch) -> None:
+def _what_was_imported_ends_with_the_test(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[None]:
     monkeypatch.setattr(sys, "path", list(sys.path))
+    yield
+    files = {name: str(getattr(module, "__file__", "")) for name, module in sys.modules.items()}
+    imported = [name for name, file in files.items() if file.startswith(str(tmp_path))]
+    types = Block.types.items()
+    Block.types = {name: cls for name, cls in types if cls.__module__ not in imported}
+    for name in imported:
+        del sys.modules[name]
 
 
 def written(file: Path, text: str) -> Path:
@@ -99,6 +109,45 @@ def test_a_file_that_imports_its_blocks_from_one_beside_it_is_named(tmp_path: Pa
     file = written(tmp_path / "all_mine.py", "import my_ears\n")
     load_blocks(file)
     assert own_files() == [file]
+
+
+def test_a_file_of_blocks_that_runs_for_a_driver_is_still_named(tmp_path: Path) -> None:
+    file = written(tmp_path / "mine.py", EAR.format(reach=1.0) + "\ndef ahead(percept): ...\n")
+    load_blocks(file)
+    assert callable(run_file(file).ahead)
+    assert own_files() == [file]
+    written(tmp_path / "my_noses.py", NOSE)
+    imports = written(tmp_path / "all_mine.py", "import my_noses\n")
+    load_blocks(imports)
+    run_file(imports)
+    assert own_files() == [file, imports]
+
+
+@pytest.mark.parametrize("run", [load_blocks, run_file])
+def test_a_file_that_fails_leaves_no_module_behind(
+    tmp_path: Path, run: Callable[[Path], object]
+) -> None:
+    before = set(sys.modules)
+    with pytest.raises(SetupError):
+        run(written(tmp_path / "mine.py", "class Ear(\n"))
+    assert set(sys.modules) == before
+
+
+def test_a_file_that_defines_no_block_takes_no_module_away(tmp_path: Path) -> None:
+    file = written(tmp_path / "mine.py", EAR.format(reach=1.0))
+    (ear,) = load_blocks(file)
+    with pytest.raises(SetupError, match="defines no block"):
+        load_blocks(written(file, "x = 1\n"))
+    assert pickle.dumps(ear), "its module is still the one that knows it"
+
+
+def test_a_driver_has_the_file_name_that_its_reader_knows(tmp_path: Path) -> None:
+    with pytest.raises(
+        SetupError, match=r"^mine\.py, line 1: ZeroDivisionError: division by zero$"
+    ):
+        run_file(written(tmp_path / "mine.py", "1 / 0\n"), "mine.py")
+    with pytest.raises(SetupError, match=r"^there\.py: expected a Python file \(\.py\)$"):
+        run_file(tmp_path / "there.py", "there.py")
 
 
 def test_a_child_process_that_loads_the_same_files_knows_the_same_classes(tmp_path: Path) -> None:

@@ -1,7 +1,5 @@
 """Drivers for evaluations and ``--brain``: models, networks, programs, controllers, chance."""
 
-import importlib.util
-import sys
 import tokenize
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -26,6 +24,7 @@ from ai4u_edu.blocks.agent_view import AgentView
 from ai4u_edu.blocks.brains.address import brain_at
 from ai4u_edu.blocks.brains.brain import Action
 from ai4u_edu.blocks.brains.network import ZOO_PREFIX
+from ai4u_edu.blocks.loading import run_file
 from ai4u_edu.learn.envs.spaces_of import Observer, outputs_of
 from ai4u_edu.learn.training.prepare import prepare
 from ai4u_edu.learn.training.run import Config, run_of
@@ -277,15 +276,7 @@ def _of_file(path: Path, name: str) -> Callable[[BasicAgent], Brain]:
 
 def _from_file(path: Path, name: str) -> Callable[[], Any]:
     """Run a Python file that the user named, and return a function or a controller from it."""
-    called = f"own_controllers_{path.stem}"
-    found = importlib.util.spec_from_file_location(called, path)
-    if found is None or found.loader is None:
-        raise SetupError(_("{path}: there is no such Python file", path=str(path)))
-    module = sys.modules[called] = importlib.util.module_from_spec(found)
-    try:
-        found.loader.exec_module(module)
-    except (Exception, SystemExit) as error:  # it is theirs, so it may be any
-        raise SetupError(f"{path}: {type(error).__name__}: {error}") from error
+    module = run_file(path)
     if not hasattr(module, name):
         known = [each for each in vars(module) if not each.startswith("_")]
         raise AI4UError(

@@ -1,8 +1,6 @@
 """Drivers that can replace an agent's own brain, by names that a page can send."""
 
 import ast
-import runpy
-import traceback
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,8 +16,8 @@ from ai4u_edu.blocks import (
     NeuralNetController,
     ReplayController,
 )
-from ai4u_edu.blocks.block import is_built_in
 from ai4u_edu.blocks.brains.address import brain_at
+from ai4u_edu.blocks.loading import run_file
 from ai4u_edu.locale import gettext as _
 from ai4u_edu.recording import Episode
 
@@ -136,7 +134,7 @@ class DriverRegistry:
                     hint=suggest(function, _driver_names(path)),
                 )
             )
-        driver = _run(path)[function]
+        driver = getattr(run_file(path, path.name), function)
         controller = driver() if isinstance(driver, type) else driver
         return LocalBrain(controller=controller, **rhythm)
 
@@ -185,45 +183,6 @@ def _checked(place: Path) -> Path:
             got=got,
         )
     )
-
-
-def _run(path: Path) -> dict[str, Any]:
-    """Run a file without any sandbox, and return its globals by name.
-
-    Raises:
-        SetupError: it can't be run, or gives a block the name of a built-in one.
-    """
-    before = Block.types
-    problem: str = ""
-    names: dict[str, Any] = {}
-    try:
-        names = runpy.run_path(str(path))
-    except (Exception, SystemExit) as error:  # a user's code may raise anything
-        lines = [
-            frame.lineno
-            for frame in traceback.extract_tb(error.__traceback__)
-            if frame.filename == str(path)
-        ]
-        place = path.name
-        if lines:
-            place = _("{file}, line {line}", file=path.name, line=str(lines[-1]))
-        fault = f"{type(error).__name__}: {error}"
-        problem = _("{place}: {problem}", place=place, problem=fault)
-    taken = [
-        name
-        for name, cls in Block.types.items()
-        if before.get(name, cls) is not cls and is_built_in(before[name])
-    ]
-    if taken:
-        problem = _(
-            "{file}: {name} is the name of a built-in block; expected another name",
-            file=path.name,
-            name=taken[0],
-        )
-    if problem:
-        Block.types = before
-        raise SetupError(problem)
-    return names
 
 
 def _driver_names(path: Path) -> list[str]:

@@ -149,17 +149,19 @@ def test_who_can_drive(tmp_path: Path) -> None:
             "{bad}:f",
             r"bad.py, line 1: Your code stopped with ZeroDivisionError: division by zero\.",
         ),
+        ("{full}:f", r"full.py, line 2: NameError: name 'wheel' is not defined"),
         ("none.onnx", "the network 'none.onnx' is not there"),
         ("none.zip", "holds no training"),
         ("zoo:nothing", "the zoo has no network for 'nothing'"),
     ],
 )
 def test_who_can_not(tmp_path: Path, spec: str, message: str) -> None:
-    mine, bad = tmp_path / "mine.py", tmp_path / "bad.py"
+    mine, bad, full = (tmp_path / name for name in ("mine.py", "bad.py", "full.py"))
     mine.write_text(MINE)
     bad.write_text("1 / 0\n")
+    full.write_text("import pymunk\nwheel\n")  # a page could not run it
     with pytest.raises(AI4UError, match=message):
-        entrant(spec.format(mine=mine, bad=bad))
+        entrant(spec.format(mine=mine, bad=bad, full=full))
 
 
 def test_the_command(tmp_path: Path) -> None:

@@ -124,6 +124,9 @@ def test_a_script_that_fails_is_told_with_its_line(tmp_path: Path) -> None:
     harness = EditorHarness(offers=(tmp_path,))
     with pytest.raises(SetupError, match=r"mine.py, line 17: ZeroDivisionError"):
         harness.done(harness.editor.set_driver("0", "script:mine.py:spin"))
+    (tmp_path / "mine.py").write_text(SCRIPT + "\n1 +\n")
+    with pytest.raises(SetupError, match="no driver 'spin'"):  # no driver can be read in it
+        harness.done(harness.editor.set_driver("0", "script:mine.py:spin"))
     (tmp_path / "mine.py").write_text(
         "from ai4u_edu import Controller\nclass WASDController(Controller):\n    pass\n"
     )
