@@ -1,6 +1,7 @@
 """Each thing that a script may do wrong has its own error, with what to do."""
 
 import contextlib
+import logging
 import math
 from functools import partial
 from typing import Any
@@ -134,6 +135,15 @@ def test_malformed_frames_are_answered_and_then_end_the_connection() -> None:
         code, reason = script.end()
         assert code == native.PROBLEMS["malformed"]
         assert reason.startswith("5 malformed frames in a row; the last: expected msgpack")
+
+
+def test_a_close_that_is_not_taken_in_time_is_no_error(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr(sockets, "CLOSE_TIMEOUT_S", 0.0)  # for a script that never reads
+    with log_room() as room, Script(room, subprotocol=None) as script:
+        script.end()
+    assert [each.getMessage() for each in caplog.records if each.levelno >= logging.ERROR] == []
 
 
 @pytest.mark.parametrize("message", [native.Bye("x"), native.Reset(1, None)])
