@@ -137,8 +137,10 @@ def test_an_answer_of_any_status_is_a_sign_of_life(idle_pid: int, status: int) -
 
 def test_a_late_answer_is_a_sign_of_life(idle_pid: int) -> None:
     clock = Clock(1000.0)
-    watch = RoomWatch(idle_pid, RoomLimits(max_memory_mb=1e9), clock)
-    timeouts: list[float] = []
+    queued = {1: 0.0}
+    limits = RoomLimits(max_memory_mb=1e9)
+    watch = RoomWatch(idle_pid, limits, clock, queue_clock=lambda _pid: dict(queued))
+    timeouts: list[float | None] = []
 
     async def ask_twice() -> list[str]:
         answers = asyncio.Event()
@@ -155,13 +157,17 @@ def test_a_late_answer_is_a_sign_of_life(idle_pid: int) -> None:
             clock.now += 19
             await watch.ask(*request)
             told = [watch.broken_limit()]
+            clock.now += 80
+            queued[1] += 80.0  # it gets no processor
+            await watch.ask(*request)
+            told.append(watch.broken_limit())
             answers.set()
             await asked
             clock.now += 19
             return [*told, watch.broken_limit()]
 
-    assert asyncio.run(ask_twice()) == ["", ""]
-    assert timeouts == [20.0]
+    assert asyncio.run(ask_twice()) == ["", "", ""]
+    assert timeouts == [None]
 
 
 def _ask_in_vain(watch: RoomWatch) -> str:
@@ -198,10 +204,25 @@ def test_time_in_which_a_room_had_no_processor_does_not_count(idle_pid: int) -> 
 
     assert _ask_in_vain(watch) == ""
     clock.now += 25
-    queued |= {1: 12.5, 3: 4.0}
+    queued |= {1: 12.5, 3: 4.0}  # they take turns at Python's lock
     assert _ask_in_vain(watch) == ""
-    clock.now += 1
+    clock.now += 4.4
+    assert _ask_in_vain(watch) == ""
+    clock.now += 0.2
     assert "did not answer any more" in _ask_in_vain(watch)
+
+
+def test_what_a_room_computes_counts_though_its_threads_wait_for_each_other() -> None:
+    queued = {1: 0.0}
+    limits = RoomLimits(max_memory_mb=1e9, answer_timeout_s=1.0)
+    clock = Clock(1000.0)
+    with subprocess.Popen([sys.executable, "-c", "while True: pass"]) as process:
+        watch = RoomWatch(process.pid, limits, clock, queue_clock=lambda _pid: dict(queued))
+        assert _ask_in_vain(watch) == ""
+        clock.now += 1000
+        queued[1] += 3000
+        until(lambda: "did not answer any more" in watch.broken_limit())
+        process.kill()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells it")
