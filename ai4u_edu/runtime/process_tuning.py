@@ -24,8 +24,10 @@ for hours (0.3 MB an episode), and closed connections of a class likewise (30 MB
 collection takes 2 ms here, since most objects are frozen."""
 RELEASE_EVERY_S = 60.0
 """Period at which a server of many connections gives free memory back."""
-M_ARENA_MAX = -8
-"""glibc's number of the setting for how many heaps the threads of a process share."""
+M_ARENA_MAX, M_MMAP_THRESHOLD, M_TRIM_THRESHOLD = -8, -3, -1
+"""glibc's numbers of three settings: how many heaps the threads of a process share, the size from
+which on a block may lie outside them, and how much may be free at a heap's end."""
+MMAP_THRESHOLD_BYTES, TRIM_THRESHOLD_BYTES = 128 * 1024, 1024 * 1024
 
 
 @contextmanager
@@ -55,14 +57,20 @@ def tuned_process() -> Iterator[None]:
 def released_memory() -> Iterator[None]:
     """Collect garbage and give free memory back to the system, every minute.
 
-    asyncio receives into 256 KiB at a time. Between blocks of other sizes fewer and fewer gaps are
-    large enough for that, so that a class's memory would grow by 30 MB an hour. glibc gives most
-    threads a heap of their own; each of them keeps gaps that the others can't use, so that a room
-    in which somebody edits would grow to twice its size. Python's threads run one at a time, and
-    hardly ever wait for each other at a common heap.
+    asyncio receives into 256 KiB at a time, of which a message keeps a little. Between such rests
+    fewer and fewer gaps are large enough for that, so that a class's memory would grow by 30 MB an
+    hour. So no heap grows for a block of this size: where none has room for it, it lies outside.
+    glibc would begin so, but takes the size of each such block that is freed for its new limit.
+
+    glibc gives most threads a heap of their own; each of them keeps gaps that the others can't use,
+    so that a room in which somebody edits would grow to twice its size. Python's threads run one at
+    a time, and hardly ever wait for each other at a common heap.
     """
     stopping = threading.Event()
-    _glibc("mallopt")(M_ARENA_MAX, 1)
+    mallopt = _glibc("mallopt")
+    mallopt(M_ARENA_MAX, 1)
+    mallopt(M_MMAP_THRESHOLD, MMAP_THRESHOLD_BYTES)
+    mallopt(M_TRIM_THRESHOLD, TRIM_THRESHOLD_BYTES)
     trim = _glibc("malloc_trim")
 
     def run() -> None:

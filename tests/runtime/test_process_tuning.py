@@ -1,6 +1,8 @@
 """Process-wide settings: only a command that owns its process changes them."""
 
+import ctypes
 import gc
+import subprocess
 import sys
 import weakref
 from collections.abc import Iterator
@@ -62,6 +64,39 @@ def test_garbage_goes_though_the_collector_is_off(monkeypatch: pytest.MonkeyPatc
             until(lambda: there() is None)
     finally:
         gc.enable()
+
+
+LARGE_BLOCKS = """
+import ctypes
+from ai4u_edu.runtime.process_tuning import released_memory
+names = "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost".split()
+class Info(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_size_t) for name in names]
+mallinfo = ctypes.CDLL(None).mallinfo2
+mallinfo.restype = Info
+with released_memory():
+    before = mallinfo().hblks
+    for _ in range(2):
+        blocks = None  # the first ones are freed
+        blocks = [bytearray(256 * 1024) for _ in range(100)]
+    print(mallinfo().hblks - before)
+"""
+"""Prints how many of 100 large blocks lie outside the heap when as many were freed before."""
+
+
+@pytest.mark.skipif(
+    sys.platform != "linux" or not hasattr(ctypes.CDLL(None), "mallinfo2"),
+    reason="glibc tells it from 2.33 on",
+)
+def test_large_blocks_lie_outside_the_heap_also_when_one_was_freed() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", LARGE_BLOCKS],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=LIMIT_S,
+    )
+    assert int(done.stdout) > 50, "most: a few may find gaps in the heap"
 
 
 def test_a_runner_and_a_viewer_change_nothing_of_the_process() -> None:
