@@ -5,7 +5,8 @@ import os
 import sys
 import sysconfig
 import threading
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import CodeType, FrameType, TracebackType
@@ -27,7 +28,7 @@ KINDS: tuple[tuple[type[Block], Text], ...] = (
 """The kinds of blocks, with their names in a sentence."""
 NAME_FIELDS = ("perception_key", "action_name", "name")
 MAX_NAME_CHARS = 80
-_walking = threading.Lock()
+_walking = threading.RLock()
 """Held while frames are looked at, and no garbage is collected."""
 
 
@@ -61,25 +62,35 @@ class CodePlace:
 def frames_of_thread(thread_id: int) -> list[FrameType]:
     """Return what a thread runs now, outermost call first; empty if it has ended.
 
-    Python makes these objects when they are asked for, and may collect garbage then. Code that
-    runs meanwhile lets the other thread go on: CPython 3.11 reads frames that are gone then, or
-    waits for ever (CPython's issue 106883). So nothing is collected here.
+    Python makes these objects when they are asked for, so nothing is collected here.
     """
     if not hasattr(sys, "_current_frames"):  # CPython has it; another Python may not
         return []
     frames = []
+    with _nothing_collected():
+        frame = sys._current_frames().get(thread_id)
+        while frame is not None:
+            frames.append(frame)
+            frame = frame.f_back
+    return frames[::-1]
+
+
+@contextmanager
+def _nothing_collected() -> Iterator[None]:
+    """Let no garbage be collected while frames of another thread are made, or their locals are.
+
+    Python would collect it in the middle of that. What runs then lets the other thread go on:
+    CPython 3.11 reads frames that are gone, which ends the process, or waits for ever (CPython's
+    issue 106883).
+    """
     with _walking:
         collects = gc.isenabled()
         gc.disable()
         try:
-            frame = sys._current_frames().get(thread_id)
-            while frame is not None:
-                frames.append(frame)
-                frame = frame.f_back
+            yield
         finally:
             if collects:
                 gc.enable()
-    return frames[::-1]
 
 
 def find_place(
@@ -91,6 +102,11 @@ def find_place(
         calls: frames and their current lines, outermost call first.
         agents: of the world that runs; one of them may own the block.
     """
+    with _nothing_collected():
+        return _place(calls, agents)
+
+
+def _place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAgent]) -> CodePlace:
     owners = [_first_argument(frame) for frame, _line in calls]
     first = next((n for n, each in enumerate(owners) if isinstance(each, Block)), None)
     if first is None:  # a handler of a block's own is that block's
@@ -105,7 +121,8 @@ def find_place(
     where: str = places[0] if places else ""
     if isinstance(owner, Event):
         agent = calls[first][0].f_locals.get("agent")
-        return CodePlace(_("Handler of {event}", event=owner.name), getattr(agent, "id", ""), where)
+        event = getattr(owner, "name", "")  # not there yet while it is made
+        return CodePlace(_("Handler of {event}", event=event), getattr(agent, "id", ""), where)
     if not isinstance(owner, Block):
         return CodePlace("", "", where)
     return CodePlace(describe(owner), _agent_of(owner, agents, calls[:first]), where)
@@ -179,7 +196,7 @@ def _agent_of(
     for frame, _line in reversed(outer):  # an agent that is about to be put into the world
         for value in frame.f_locals.values():
             if isinstance(value, BasicAgent):
-                return value.id
+                return getattr(value, "id", "")  # not there yet while it is made
     return ""
 
 
