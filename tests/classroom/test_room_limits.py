@@ -214,6 +214,7 @@ def test_time_in_which_a_room_had_no_processor_does_not_count(idle_pid: int) -> 
 
 def test_what_a_room_computes_counts_though_its_threads_wait_for_each_other() -> None:
     queued = {1: 0.0}
+    # real time: the process computes for that long
     limits = RoomLimits(max_memory_mb=1e9, answer_timeout_s=1.0)
     clock = Clock(1000.0)
     with subprocess.Popen([sys.executable, "-c", "while True: pass"]) as process:
