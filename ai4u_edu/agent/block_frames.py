@@ -93,6 +93,7 @@ def _nothing_collected() -> Iterator[None]:
                 gc.enable()
 
 
+@_nothing_collected()
 def find_place(
     calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAgent] = ()
 ) -> CodePlace:
@@ -102,11 +103,6 @@ def find_place(
         calls: frames and their current lines, outermost call first.
         agents: of the world that runs; one of them may own the block.
     """
-    with _nothing_collected():
-        return _place(calls, agents)
-
-
-def _place(calls: Sequence[tuple[FrameType, int]], agents: Iterable[BasicAgent]) -> CodePlace:
     owners = [_first_argument(frame) for frame, _line in calls]
     first = next((n for n, each in enumerate(owners) if isinstance(each, Block)), None)
     if first is None:  # a handler of a block's own is that block's

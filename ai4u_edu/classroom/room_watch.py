@@ -93,7 +93,8 @@ class RoomWatch:
                 most=self._limits.max_memory_mb,
             )
         since = self._unanswered_since
-        if since is not None and (waited_s := self._clock() - since) > 0:
+        if since is not None:
+            waited_s = self._clock() - since
             # A process that gets no processor is not to blame, and to start another one costs more.
             # Where threads wait side by side, their sum is longer than what passed.
             own_s = max(waited_s - self._queued_s(), min(computed_s, waited_s))
