@@ -41,7 +41,7 @@ MAX_WORKERS = 16
 LONG_RUNS = {
     "fuzz": ["-m", "tests.fuzz"],
     "hammer": ["-m", "tests.attacks.hammer", "--seconds", "300"],
-    "class hammer": ["-m", "tests.attacks.class_hammer", "--seconds", "3600"],
+    "class hammer": ["-m", "tests.attacks.class_hammer", "--seconds", "5400"],
     "soak": ["-m", "tests.soak", "--minutes", "30"],
 }
 WEB = "web"

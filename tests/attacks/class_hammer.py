@@ -38,10 +38,14 @@ from tests.page.server.rooms import Page, open_socket
 from tests.waiting import LIMIT_S, Deadline
 
 ROOMS = 6
+LEAST_SAMPLES = 6
+"""Samples of a process's memory that make a growth."""
 SCENES = ("box_chase", "maze", "sumo", "soccer")
 GROWTH_MB_PER_H = 5.0
-SLOPE_AFTER_S = 1800.0
-"""Length of a run (s) from which on its growth of memory is judged; before, it is noise."""
+SETTLED_S = 1800.0
+"""Time (s) in which a process reaches its size: its heap takes the room that bursts need, and its
+bounded stores of episodes and files fill. Growth is a fault from then on, in a run that goes on
+for at least as long again; over less it is noise."""
 TEACHERS_PATHS = (
     "teacher",
     "teacher/state",
@@ -328,25 +332,35 @@ class Memory:
         """Return a line for each process; one that grows is a fault in a long run."""
         lines = []
         for pid, samples in self._samples.items():
-            later = samples[len(samples) // 5 :]
-            if len(later) < 3:
+            settled = [sample for sample in samples if sample[0] >= SETTLED_S]
+            is_judged = seconds >= 2 * SETTLED_S and len(settled) >= LEAST_SAMPLES
+            later = settled if is_judged else samples[len(samples) // 5 :]
+            if len(later) < LEAST_SAMPLES:
                 continue
-            slope, latest = (_slope(each) for each in (later, samples[len(samples) // 2 :]))
+            growth = _growth(later)
             name = "class" if pid == self._class.pid else "room"
             first, last = later[0][1] / 1e6, later[-1][1] / 1e6
             sizes = " ".join(f"{size / 1e6:.0f}" for _, size in samples[:: len(samples) // 20 + 1])
             lines.append(
-                f"{name} {pid}: {first:.1f} -> {last:.1f} MB, {slope:+.1f} MB/h, "
-                f"{latest:+.1f} in the second half ({sizes})"
+                f"{name} {pid}: {first:.1f} -> {last:.1f} MB, {growth:+.1f} MB/h after "
+                f"{later[0][0]:.0f} s ({sizes})"
             )
-            if seconds >= SLOPE_AFTER_S and slope > GROWTH_MB_PER_H:
+            if is_judged and growth > GROWTH_MB_PER_H:
                 tally.wrong.append(f"grows: {lines[-1]}")
         return lines
 
 
-def _slope(samples: list[tuple[float, int]]) -> float:
-    """Return the growth (MB/h) of samples of time (s) and bytes."""
-    return statistics.linear_regression(*zip(*samples, strict=True)).slope * 3600 / 1e6
+def _growth(samples: list[tuple[float, int]]) -> float:
+    """Return the growth (MB/h) of samples of time (s) and bytes.
+
+    It is that between the medians of the first third and the last: memory that is taken for a
+    moment and given back does not count, as it would for a line through all samples.
+    """
+    third = len(samples) // 3
+    parts = samples[:third], samples[-third:]
+    began, ended = (statistics.median(time_s for time_s, _ in part) for part in parts)
+    first, last = (statistics.median(size for _, size in part) for part in parts)
+    return (last - first) / (ended - began) * 3600 / 1e6
 
 
 def _judge(attack: Attack, seats: list[tuple[int, str]]) -> None:
