@@ -1,7 +1,9 @@
 """Cache of an episode's snapshots, for looking at them in any order."""
 
+import sys
 import threading
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -21,12 +23,15 @@ from ai4u_edu.snapshot import (
     capture_snapshot,
     capture_static_scene,
 )
-from ai4u_edu.world.ink import Tile, TileKey
+from ai4u_edu.world.ink import BLANK, Tile, TileKey
 
 MAX_CACHE_BYTES = 96 * 2**20
 """Approximate memory of cached snapshots."""
 MAX_HISTORY_DECISIONS = 240
 """Decisions whose rewards are shown with each snapshot."""
+STATES_PER_MEASUREMENT = 16
+"""Snapshots for which the size of a world's state is measured once: it changes little, and a
+measurement takes as long as a tick."""
 _DECISION_FIELDS = (
     "action",
     "clipped",
@@ -87,7 +92,7 @@ class FrameCache:
         """Distance between snapshots that are kept."""
         self._index = episode.ids.index(self.record.id)
         self._largest = largest
-        self._size = 0
+        self._size = self._state_size = 0
         self._count: int | None = None
         self._frames: dict[int, _Frame] = {}
         self._static_scene: tuple[int, StaticScene] | None = None
@@ -242,7 +247,9 @@ class FrameCache:
 
     def _make_on_request(self, player: Player, step: int) -> None:
         """Make a snapshot that was not kept, and those before it, since a person may step back."""
-        gap = range(step - step % self.stride, step + 1)
+        # as many as a quarter of the memory holds; near others each needs what they need
+        fitting = max(1, self._largest // 4 * len(self._frames) // max(1, self._size))
+        gap = range(max(step - step % self.stride, step - fitting + 1), step + 1)
         made = {each: self._frame_at(player, each) for each in gap}
         with self._changed:
             for each in self._on_request:
@@ -274,7 +281,12 @@ class FrameCache:
         )
         moved = sum(one is not bodies.get(one.name) for one in shared)
         bodies.update((each.name, each) for each in shared)
-        self._size += _size(frame.snapshot, moved) + self._new_ink(frame.snapshot)
+        if step // self.stride % STATES_PER_MEASUREMENT == 0:
+            state = frame.snapshot.state
+            world = state.world._replace(ink=BLANK)  # tiles that did not change are shared
+            self._state_size = _memory_of(state._replace(world=world))
+        self._size += _size(frame.snapshot, moved) + self._state_size
+        self._size += self._new_ink(frame.snapshot)
         frame = replace(frame, snapshot=replace(frame.snapshot, bodies=shared))
         with self._changed:
             self._frames[step] = frame
@@ -318,12 +330,27 @@ class FrameCache:
 
 
 def _size(snapshot: Snapshot, moved: int) -> int:
-    """Return the approximate memory (bytes) of a snapshot of which some bodies are shared."""
+    """Return the approximate memory (bytes) of a snapshot of which some bodies are shared.
+
+    That of the world's state comes on top.
+    """
     size = 1000 + 8 * (len(snapshot.bodies) + MAX_HISTORY_DECISIONS) + 400 * moved
     for agent in snapshot.agents:
         rays = sum(ray.ends.nbytes + 8 * len(ray.groups) + 300 for ray in agent.rays.values())
         size += 4000 + len(agent.percept.data) + rays
     return size
+
+
+def _memory_of(value: object) -> int:
+    """Return the approximate memory (bytes) of plain data, with all that it holds."""
+    inner: Iterable[object] = ()
+    if isinstance(value, Mapping):
+        inner = value.values()
+    elif isinstance(value, deque):  # its other items are those of the snapshot before
+        inner = list(value)[-1:]
+    elif isinstance(value, tuple | list | set | frozenset):
+        inner = value
+    return sys.getsizeof(value) + sum(_memory_of(each) for each in inner)
 
 
 def _decision_at(player: Player, index: int) -> int:

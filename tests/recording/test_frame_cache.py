@@ -1,6 +1,7 @@
 """The frames that a cache replays equal the recorded ones, bit for bit."""
 
 import threading
+import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -148,6 +149,31 @@ def test_with_little_memory_it_shows_the_same() -> None:
     assert len(small._frames) < last / 2
     whole.stop()
     small.stop()
+
+
+def test_its_snapshots_take_no_more_memory_than_they_may() -> None:
+    episode, _seen = lived("soccer", 60)
+    taken = []
+    for largest in (1_000_000, 100_000_000):
+        tracemalloc.start()
+        frame_cache = FrameCache(episode, largest=largest).start()
+        assert frame_cache.snapshot(len(episode.agents[0]), timeout=None) is not None
+        taken.append(tracemalloc.get_traced_memory()[0])
+        frame_cache.stop()
+        tracemalloc.stop()
+    # all snapshots together take 3.4 MB; besides, both need the same
+    assert taken[1] - taken[0] > 2_000_000
+
+
+def test_a_snapshot_that_was_not_kept_is_made_with_as_many_as_fit() -> None:
+    episode = take("box_chase", decisions=120).episode
+    frame_cache = FrameCache(episode, largest=50_000).start()
+    assert frame_cache.snapshot(119, timeout=None) is not None
+    kept = len(frame_cache._frames)
+    assert frame_cache.stride > 20
+    assert frame_cache.snapshot(95, timeout=None) is not None
+    assert len(frame_cache._frames) <= kept + 1
+    frame_cache.stop()
 
 
 def test_what_is_not_ready_is_made_and_can_be_asked_for_again() -> None:
