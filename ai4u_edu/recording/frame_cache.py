@@ -247,7 +247,7 @@ class FrameCache:
 
     def _make_on_request(self, player: Player, step: int) -> None:
         """Make a snapshot that was not kept, and those before it, since a person may step back."""
-        # as many as a quarter of the memory holds; near others each needs what they need
+        # from the last kept one on, but no more than a quarter of the memory holds
         fitting = max(1, self._largest // 4 * len(self._frames) // max(1, self._size))
         gap = range(max(step - step % self.stride, step - fitting + 1), step + 1)
         made = {each: self._frame_at(player, each) for each in gap}
